@@ -52,6 +52,7 @@ const uint kRetroNone = 0u;
 const uint kRetroSheeting = 1u;  // R_A by a table of its own
 const uint kRetroMarking = 2u;   // R_L by its class
 const uint kRetroFacets = 3u;    // rough ground
+const uint kRetroGrooves = 5u;   // Oren and Nayar in place of Lambert; 4 is of the processor alone
 
 // How the node before a direction is found. Even: nodes a step apart, from a phase; where wanted a fine step about 0° and a coarse one
 // beyond. "Ahead" is for tables with no first angle beyond 90°; what lies at 90° or behind counts as dark.
@@ -188,7 +189,7 @@ const uint kRayMoverTexels = 4u;
 const float kShadowNear_m = 0.05f;
 
 struct GpuMaterial {
-  // rgb rho; w, sheeting: which of the sheetings; marking: R_L at the 30 m geometry without what rho gives there,
+  // rgb rho; w, sheeting and grooves: which of the sheetings; marking: R_L at the 30 m geometry without what rho gives there,
   // facets: what they send back at a share of 1, in cd/(lx·m²), by which luminance follows from rho/pi: times pi over
   // rho's luminance under illuminant A. Of a marking with an R_L of its own when wet there is, as many places from the
   // last as it is from the first, in x what stays of its w on wet ground, and -1 in w.
@@ -196,6 +197,7 @@ struct GpuMaterial {
 };
 
 // ln of R_A in cd/(lx·m²), scaled like R_L above: a row for each observation angle, x to w for entrance angles (lib/retro.h).
+// Of grooves, the first two rows: their terms (grooves_beside()), dry and wet.
 struct GpuSheeting {
   vec4 row[6];
 };

@@ -51,7 +51,8 @@ static_assert(sizeof(shader::GpuDraw) == 80 && sizeof(shader::GpuMaterial) == 16
 static_assert(sizeof(shader::GpuSheeting) == 96 && std::tuple_size_v<decltype(Retroreflection::ln_r_a)> == 6);
 static_assert(static_cast<std::uint32_t>(RetroKind::kSheeting) == shader::kRetroSheeting &&
               static_cast<std::uint32_t>(RetroKind::kMarking) == shader::kRetroMarking &&
-              static_cast<std::uint32_t>(RetroKind::kFacets) == shader::kRetroFacets);
+              static_cast<std::uint32_t>(RetroKind::kFacets) == shader::kRetroFacets &&
+              static_cast<std::uint32_t>(RetroKind::kGrooves) == shader::kRetroGrooves);
 static_assert(sizeof(GpuVertex) == 28 && offsetof(GpuVertex, normal) == 12 && offsetof(GpuVertex, material) == 24);
 static_assert(shader::kMaxIsoluxLevels % 4 == 0);
 static_assert(static_cast<std::uint32_t>(Method::kVertex) == shader::kMethodVertex &&

@@ -47,6 +47,36 @@ PHARE_INLINE float marking_sent_back(float whole, float observation_deg, float c
          facets * facets_share(cos_incidence, cos_seen, cos_between);
 }
 
+/// The angle from the normal over 90°, by its cosine from 0 to 1 (Abramowitz and Stegun 4.4.46: 2e-8 rad). GLSL's acos is off by 1e-4 on Mesa.
+PHARE_INLINE float angle_over_90(float c) {
+  float c2 = c * c, c4 = c2 * c2;
+  float low = (1.5707963050f - 0.2145988016f * c) + c2 * (0.0889789874f - 0.0501743046f * c);
+  float high = (0.0308918810f - 0.0170881256f * c) + c2 * (0.0066700901f - 0.0012624911f * c);
+  return sqrt(1.0f - c) * (low + c4 * high) * 0.63661977237f;
+}
+
+/// Oren and Nayar (1994), eq. 30 in full, less Lambert's part: luminance over facing illuminance is rho/pi times this and times what flat Lambert
+/// has, cos_incidence. `terms`, of the slopes' variance s: C1 - 1 = -s/2/(s + 0.33); 0.45·s/(s + 0.09); 0.125·s/(s + 0.09); of light between
+/// facets 0.17·rho·s/(s + 0.13). A coloured surface has one rho there (visual/scene/retro.h). cos(azimuth)·sin(larger)·tan(smaller) of theirs is
+/// what cos_between has beyond the product of the other two, over the cosine of the smaller angle. For wide slopes and grazing light toward the
+/// eye the equation is below nothing: there is none then. Checked against float64 in tests/visual/rough_surface_test.cpp.
+PHARE_INLINE float grooves_beside(vec4 terms, float cos_incidence, float cos_seen, float cos_between) {
+  // Those of sight are the same for all lamps.
+  float lit = clamp(cos_incidence, 0.0f, 1.0f), seen = clamp(cos_seen, 0.0f, 1.0f);
+  float sin_lit = sqrt(1.0f - lit * lit), sin_seen = sqrt(1.0f - seen * seen);
+  float part_lit = angle_over_90(lit), part_seen = angle_over_90(seen);
+  bool from_above = lit > seen;
+  float cosine = max(lit, seen), sum = lit + seen;
+  float smaller = min(part_lit, part_seen), sin_smaller = from_above ? sin_lit : sin_seen;
+  float smaller2 = smaller * smaller, both = part_lit * part_seen;
+  float beyond = cos_between - lit * seen;
+  float azimuth = clamp(beyond / max(sin_lit * sin_seen, 1e-6f), -1.0f, 1.0f);  // its cosine
+  float along = terms.y * (beyond - min(azimuth, 0.0f) * (smaller2 * smaller) * sin_smaller);
+  float across = terms.z * (1.0f - abs(azimuth)) * (both * both) * (sin_lit + sin_seen);
+  float direct = (along * sum + across * cosine) / max(cosine * sum, 1e-9f);
+  return lit * max(terms.x + direct + terms.w * (1.0f - azimuth * smaller2), -1.0f);
+}
+
 /// Rows of a sheeting's table: observation angles 0.2°, 0.33°, 0.5°, 1°, 1.5°, 2°.
 const uint kSheetingRows = 6u;
 

@@ -31,6 +31,13 @@ vec2 surface_detail(vec3 point, vec3 detail_from_point) {
   return vec2(1.0);
 }
 
+// Which of their rows: lean shaders know no water.
+#ifdef PHARE_LEAN
+#define PHARE_GROOVES_ROW 0u
+#else
+#define PHARE_GROOVES_ROW wet_ground
+#endif
+
 // Luminance over illuminance facing the lamp, as rho/pi has it; n looks to the side that is seen, `level` is its part of the way from the eye.
 // Retroreflected light keeps the tint of the material and not its darkness. `strength`: w of GpuMaterial; `eye_lamp2`: the square of the way from
 // the eye to the lamp, m².
@@ -40,6 +47,7 @@ float sent_back(uint lamp, LampLight light, vec3 point, vec3 n, float level, flo
   float cos_between = (eye2 + light.distance_m * light.distance_m - eye_lamp2) * (0.5 * inverse_eye) * light.per_m;
   if (retro == kRetroFacets) return strength * facets_share(light.cos_incidence, cos_seen, cos_between);
   if (light.cos_incidence <= 0.0) return 0.0;
+  if (retro == kRetroGrooves) return grooves_beside(sheetings[uint(strength)].row[PHARE_GROOVES_ROW], light.cos_incidence, cos_seen, cos_between);
   vec3 toward_lamp = frame.lamps[lamp].position.xyz - point;
   float observation_deg = between_deg(toward_lamp, -point);
   if (retro == kRetroMarking) return marking_sent_back(strength, observation_deg, light.cos_incidence, cos_seen, cos_between);

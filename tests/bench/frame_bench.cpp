@@ -198,6 +198,18 @@ void add_parts(Bench& bench, const std::string& group, Renderer& renderer, const
   });
 }
 
+/// The straight road with surfaces of one kind, all of them.
+void add_surfaces(Bench& bench, Scene straight, const IntensityTable& beam,
+                  const std::function<FrameInput(int)>& view) {
+  const auto add = [&](const std::string& name, const Retroreflection& retro) {
+    for (SceneMaterial& material : straight.materials) material.retro = retro;
+    bench.add("straight road, all surfaces", name, bench.renderer(straight, beam), view);
+  };
+  add("Lambert", {});
+  add("upright facets", {.kind = RetroKind::kFacets});
+  add("Oren-Nayar", grooves(30.0));
+}
+
 /// The straight road with more of one thing: triangles, draws, lamps, pixels, views.
 void add_growth(Bench& bench, const Scene& straight, const IntensityTable& beam, const Options& options) {
   const auto view = [](int round) { return without_shadows(straight_road_view(0.1 * (round % 64))); };
@@ -302,6 +314,7 @@ int run(const Options& options) {
   };
   add_road("straight road, even nodes", bench.renderer(straight, even), straight_view);
   bench.add("straight road, rounded nodes", "two lamps", bench.renderer(straight, rounded), straight_view);
+  add_surfaces(bench, straight, even, straight_view);
   add_road("country road", bench.renderer(*country, *lamp), country_view);
   Instruments instruments;
   Renderer& with_instruments = bench.renderer(*country, *lamp);

@@ -391,6 +391,22 @@ TEST(ForeignScene, NamesAndExtrasFindTheLibrary) {
   material["extras"]["phare"]["material"] = 7;
   EXPECT_NE(reason_of(file).find("material is not a text"), std::string::npos);
 
+  // Rough in place of flat, or of the library's facets; 0: flat.
+  material["extras"]["phare"] = {{"material", "asphalt"}, {"roughness_deg", 25}};
+  EXPECT_EQ(scene_of(file).materials.at(0).retro.kind, RetroKind::kGrooves);
+  EXPECT_NEAR(scene_of(file).materials.at(0).retro.roughness_rad, 0.43633, 1e-5);
+  material["extras"]["phare"] = {{"material", "plaster rough"}};
+  EXPECT_NEAR(scene_of(file).materials.at(0).retro.roughness_rad, 0.52360, 1e-5);
+  material["extras"]["phare"]["roughness_deg"] = 0;
+  EXPECT_EQ(scene_of(file).materials.at(0).retro.kind, RetroKind::kNone);
+  for (const Json& wrong : {Json(-1), Json(61), Json("25")}) {
+    material["extras"]["phare"]["roughness_deg"] = wrong;
+    EXPECT_NE(reason_of(file).find("'Road_01': roughness_deg is not a number from 0 to 60"), std::string::npos)
+        << reason_of(file);
+  }
+  material["extras"]["phare"] = {{"roughness_deg", 25}, {"retro", "EN 1436 R4"}};
+  EXPECT_NE(reason_of(file).find("not both"), std::string::npos) << reason_of(file);
+
   // With a picture: its differences, the library's darkness.
   material["extras"]["phare"] = {{"material", "asphalt"}};
   material["pbrMetallicRoughness"] = {

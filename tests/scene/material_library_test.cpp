@@ -74,6 +74,10 @@ TEST(MaterialLibrary, WrongEntriesSayWhere) {
   EXPECT_NE(unknown.find("surfaces.toml:5: "), std::string::npos) << unknown;
   EXPECT_NE(unknown.find("unknown surface 'gras'"), std::string::npos) << unknown;
   EXPECT_NE(reason(good + "retro = \"EN 1436 R9\"\n").find("surfaces.toml:5:"), std::string::npos);
+  EXPECT_EQ(reason(good + "roughness_deg = 30.0\n"), "was read");
+  EXPECT_NE(reason(good + "roughness_deg = 70.0\n").find("surfaces.toml:5:"), std::string::npos);
+  EXPECT_NE(reason(good + "retro = \"EN 1436 R4\"\nroughness_deg = 30.0\n").find("surfaces.toml:6:"),
+            std::string::npos);
   EXPECT_NE(reason(good + "retro = \"UN R3 IVA white\"\n").find("is needed"), std::string::npos);
   EXPECT_NE(reason(good + "retroreflection_cd_per_lx_m2 = 3.0\n").find("retroreflection_cd_per_lx_m2"),
             std::string::npos);

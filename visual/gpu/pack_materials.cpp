@@ -30,6 +30,9 @@ shader::GpuMaterial pack_material(const SceneMaterial& material, std::vector<sha
     shader::GpuSheeting& sheeting = sheetings.emplace_back();
     for (std::size_t i = 0; i < material.retro.ln_r_a.size(); ++i)
       sheeting.row[i] = material.retro.ln_r_a[i] + static_cast<float>(std::log(kPi / rho));
+  } else if (material.retro.kind == RetroKind::kGrooves) {
+    packed.reflectance.w = static_cast<float>(sheetings.size());
+    std::ranges::copy(groove_terms(material.retro.roughness_rad, material.reflectance), sheetings.emplace_back().row);
   }
   return packed;
 }
@@ -63,7 +66,8 @@ PackedMaterials pack_materials(const Scene& standing, const Scene& moving) {
     throw std::runtime_error(std::to_string(packed.size()) + " materials, at most " +
                              std::to_string(shader::kMaxMaterials) + " are drawn");
   if (sheetings.size() > shader::kMaxSheetings)
-    throw std::runtime_error(std::to_string(sheetings.size()) + " retroreflective sheetings, at most " +
+    throw std::runtime_error(std::to_string(sheetings.size()) +
+                             " retroreflective sheetings and rough surfaces, at most " +
                              std::to_string(shader::kMaxSheetings) + " are drawn");
   sheetings.resize(shader::kMaxSheetings);
   const std::size_t count = packed.size();

@@ -59,6 +59,10 @@ LibraryMaterial read_one(TomlTable& table) {
     else
       table.fail("retro", read.error().reason);
   }
+  if (table.has("roughness_deg")) {
+    if (material.retro.kind != RetroKind::kNone) table.fail("roughness_deg", "goes without retro");
+    material.retro = grooves(table.number("roughness_deg", 0.0, kRoughest_deg));
+  }
   material.words = table.texts_or_empty("words");
   for (const std::string& word : material.words)
     if (words_of(word) != std::vector{word}) table.fail("words", "'" + word + "' is not one word of small letters");

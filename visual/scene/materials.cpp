@@ -149,6 +149,7 @@ Status MaterialReader::read_extras(const tinygltf::Material& source, ReadMateria
                                              "surface",
                                              "retro",
                                              "r_table",
+                                             "roughness_deg",
                                              "emission_cdm2",
                                              "sky_share",
                                              "retroreflection_cd_per_lx_m2",
@@ -222,12 +223,16 @@ Status MaterialReader::read_extras(const tinygltf::Material& source, ReadMateria
     if (r > 0.0) value = r;
     return "";
   };
-  std::optional<double> r_a, r_l, shining_cdm2;
+  std::optional<double> r_a, r_l, shining_cdm2, rough_deg;
   for (const std::string& wrong :
        {figure("retroreflection_cd_per_lx_m2", 1e4, r_a), figure("retroreflection_mcd_per_lx_m2", 1e5, r_l),
-        figure("luminance_cdm2", kMostLuminance_cdm2, shining_cdm2)})
+        figure("luminance_cdm2", kMostLuminance_cdm2, shining_cdm2), figure("roughness_deg", kRoughest_deg, rough_deg)})
     if (!wrong.empty()) return bad(wrong);
   if (r_a && r_l) return bad("a material has an R_A or an R_L, not both");
+  const bool told_rough = extras.Has("roughness_deg");
+  if (told_rough && (!class_name.empty() || r_a || r_l))
+    return bad("a material has a roughness_deg or sends light back by a class or figure, not both");
+  if (told_rough) material.retro = grooves(rough_deg.value_or(0.0));
   if (!class_name.empty() || r_a || r_l) {
     auto retro = retroreflection(class_name, r_a, r_l);
     if (!retro) return bad(retro.error().reason);

@@ -287,6 +287,22 @@ Result<Retroreflection> retroreflection(const std::string& class_name, std::opti
   return made;
 }
 
+Retroreflection grooves(double roughness_deg) {
+  if (roughness_deg <= 0.0) return {};
+  return {.kind = RetroKind::kGrooves,
+          .class_name = "Oren-Nayar",
+          .roughness_rad = roughness_deg * std::numbers::pi / 180.0};
+}
+
+std::array<glm::vec4, 2> groove_terms(double roughness_rad, const glm::vec3& reflectance) {
+  const double s = roughness_rad * roughness_rad;
+  const glm::dvec3 rho(reflectance), weights(0.2126, 0.7152, 0.0722);
+  const double seen = glm::dot(weights, rho), twice = seen > 0.0 ? glm::dot(weights, rho * rho) / seen : 0.0;
+  const glm::dvec4 dry(-0.5 * s / (s + 0.33), 0.45 * s / (s + 0.09), 0.125 * s / (s + 0.09),
+                       0.17 * twice * s / (s + 0.13));
+  return {glm::vec4(dry), glm::vec4(dry * static_cast<double>(shader::kFacetsLeft))};
+}
+
 double sent_back_strength(const Retroreflection& retro, double rho) {
   if (retro.kind == RetroKind::kFacets && retro.r_l_mcd_per_lx_m2 == 0.0) return rho / std::numbers::pi;
   const double beside = std::max(1e-3 * retro.r_l_mcd_per_lx_m2 - rho / std::numbers::pi * kCosThirtyMetres, 0.0);
@@ -313,6 +329,10 @@ double sent_back_per_lx(const Retroreflection& retro, double rho, const glm::dve
            static_cast<double>(std::max(cos_seen, 0.1f));
   }
   const double per_unit = rho / std::numbers::pi;
+  if (retro.kind == RetroKind::kGrooves)
+    return per_unit * static_cast<double>(shader::grooves_beside(
+                          groove_terms(retro.roughness_rad, glm::vec3(static_cast<float>(rho)))[0], cos_incidence,
+                          cos_seen, cos_between));
   const auto whole = static_cast<float>(sent_back_strength(retro, rho) / per_unit);
   return per_unit * static_cast<double>(
                         retro.kind == RetroKind::kFacets

@@ -25,7 +25,9 @@ namespace phare {
 /// As in shaders/lamps.h.
 /// A pupil is sheeting in its figures, but no surface of a picture: it is smaller than a pixel, so what it sends back
 /// is drawn by a pass of its own (visual/eyeshine.h) and the lit pass knows it as a plain surface.
-enum class RetroKind : std::uint32_t { kNone = 0, kSheeting = 1, kMarking = 2, kFacets = 3, kPupil = 4 };
+/// Grooves are no retroreflection of their own but a rough surface in place of a flat one; what they send beside what
+/// Lambert's would goes the same way, and may be less than nothing.
+enum class RetroKind : std::uint32_t { kNone = 0, kSheeting = 1, kMarking = 2, kFacets = 3, kPupil = 4, kGrooves = 5 };
 
 /// What a class prescribes: the least R_L of a marking in the 30 m geometry (observation 1.05°, entrance 88.76°), or
 /// the least R_A of a sheeting at some observation angles.
@@ -59,6 +61,7 @@ struct Retroreflection {
   double wet_mcd_per_lx_m2 = 0.0;
   std::array<glm::vec4, kObservations_deg.size()>
       ln_r_a{};  ///< of sheeting: ln of cd/(lx·m²), [observation], xyzw entrance
+  double roughness_rad = 0.0;  ///< of grooves: standard deviation of their slopes
 };
 
 /// By its class, or by a measured figure, or both: a class gives the shape over the angles, the figure then replaces
@@ -67,6 +70,15 @@ struct Retroreflection {
 /// or a figure of the other kind.
 Result<Retroreflection> retroreflection(const std::string& class_name, std::optional<double> r_a_cd_per_lx_m2,
                                         std::optional<double> r_l_mcd_per_lx_m2);
+
+/// The most that a material may state: what Oren and Nayar measured is below 40°.
+inline constexpr double kRoughest_deg = 60.0;
+/// A surface by Oren and Nayar (visual/photometry/table/surface_luminance.h) where Lambert's is flat; 0°: flat.
+Retroreflection grooves(double roughness_deg);
+/// Their terms as the shader has them (grooves_beside()), dry and wet. Of light between facets a colour counts once
+/// more; that has one number here, by which the luminance is right in white light and the hue that of `reflectance`.
+/// Water leaves as much of what they send beside Lambert's as of what facets do.
+std::array<glm::vec4, 2> groove_terms(double roughness_rad, const glm::vec3& reflectance);
 
 /// What is sent back beside diffuse rho/pi, luminance toward the eye over the illuminance on a plane facing the lamp in
 /// cd/(lx·m²): of a marking in the 30 m geometry, of facets at a share of 1 (shaders/lib/retro.h). `rho`: as below.

@@ -75,7 +75,7 @@ double oren_nayar_per_sr(double reflectance, double roughness_rad, const LightAn
   const double c3 = 0.125 * s2 / (s2 + 0.09) * ab * ab;
   const double direct = reflectance * (c1 + c * c2 * std::tan(b) + (1.0 - std::abs(c)) * c3 * std::tan(0.5 * (a + b)));
   const double between = 0.17 * reflectance * reflectance * s2 / (s2 + 0.13) * (1.0 - c * b_part * b_part);
-  return kPerPi * (direct + between);
+  return kPerPi * std::max(direct + between, 0.0);
 }
 
 double oren_nayar_simple_per_sr(double reflectance, double roughness_rad, const LightAndSight& at) {

@@ -22,7 +22,8 @@ struct LightAndSight {
   glm::dvec3 to_eye{0.0, 0.0, 1.0};
 };
 
-/// Luminance over illuminance on the surface, 1/sr. `roughness_rad`: σ. 0 where lamp or eye are below the surface.
+/// Luminance over illuminance on the surface, 1/sr. `roughness_rad`: σ. 0 where lamp or eye are below the surface, or
+/// the equation is (wide slopes, light at grazing angles toward the eye).
 double oren_nayar_per_sr(double reflectance, double roughness_rad, const LightAndSight& at);
 /// The form with two constants, A and B.
 double oren_nayar_simple_per_sr(double reflectance, double roughness_rad, const LightAndSight& at);
