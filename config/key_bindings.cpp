@@ -54,7 +54,7 @@ constexpr KeyBinding kBindings[] = {
     {kEyeTurnLeft, kPicture, '7', "7 1", {}, "turns it left, right"},
     {kEyeTurnRight, kPicture, '1', "1", {}, ""},
     {kFalseColour, kPicture, key::kF2, "F2", {}, "lux in false colour, then clipping, then the photo", "view next"},
-    {kEffects, kPicture, key::kF3, "F3", {}, "which effects are on, and why", "effects toggle"},
+    {kEffects, kPicture, key::kF3, "F3", {}, "which effects are on, what they take, and why", "effects toggle"},
     {kMethod,
      kPicture,
      key::kF4,
