@@ -246,6 +246,8 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, 
   const auto decided = [&](const EffectRow& row, const EffectFacts& by) {
     const auto i = static_cast<std::size_t>(row.effect);
     EffectDecision decision = row.decide(by);
+    if (row.over_luminance && decision.level > 0 && (by.false_colour || by.clipping))
+      decision = {0, "the view shows no luminance to draw it over", true};
     if (!choices[i] && picked[i] && decision.level > 0)
       decision = {std::min(*picked[i], row.levels.size() - 1),
                   "picked for what is asked of time and accuracy; by itself: " + decision.reason};

@@ -116,6 +116,13 @@ TEST_F(AddedEffects, OverLuminanceCallForItsImage) {
   const Image8 image = renderer.read_image();
   EXPECT_GT(image.rgba[0], 50);
   EXPECT_LT(image.rgba[0], 250) << "cd/m² before the tone curve, not the display's full red";
+  for (const View other : {View::kFalseColour, View::kClipping}) {
+    FrameInput input = two_views();
+    input.view = other;
+    const FrameResult without = renderer.draw(input);
+    EXPECT_FALSE(without.views[0].effects.on(bars.effect())) << "there is no luminance to draw it over";
+    EXPECT_FALSE(without.views[0].effects.on(Effect::kHdrImage));
+  }
   EXPECT_EQ(renderer.validation_messages(), 0u);
 }
 
