@@ -287,15 +287,11 @@ EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices, 
   return plan;
 }
 
-std::string explain(const EffectPlan& plan, bool columns) {
+std::string explain(const EffectPlan& plan) {
   std::string text;
   for (const EffectRow& row : effect_table()) {
     const EffectDecision& decision = plan[row.effect];
     std::string line(row.name);
-    if (!columns) {
-      text += line + " " + std::string(row.levels[decision.level]) + ": " + decision.reason + "\n";
-      continue;
-    }
     line.resize(std::max<std::size_t>(line.size() + 1, 16), ' ');
     line += row.levels[decision.level];
     line.resize(std::max<std::size_t>(line.size() + 1, 24), ' ');

@@ -128,7 +128,6 @@ struct EffectPlan {
 EffectPlan plan_effects(const EffectFacts& facts, const EffectChoices& choices = {}, const EffectChoices& picked = {});
 
 /// "tone mapping   off   nothing reads the HDR image …", a line an effect.
-/// Without `columns` as a sentence, for letters that are not all equally wide: "tone mapping off: nothing reads …".
-std::string explain(const EffectPlan& plan, bool columns = true);
+std::string explain(const EffectPlan& plan);
 
 }  // namespace phare

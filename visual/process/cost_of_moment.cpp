@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "visual/process/eyeshine_of_lamps.h"
+#include "visual/process/glare_into_eye.h"
 #include "visual/process/overlay_lines.h"
 #include "visual/process/panel.h"
 #include "visual/process/picture_instruments.h"
@@ -44,13 +45,7 @@ void add_views(FrameInput& input, const Desk& desk, const MomentScene& from, con
   }
   for (ViewInput& view : others.more_views) {
     view.pupils = eyeshine_of(lamps, moment.pose, pupils, world, view.camera.eye_m, view.air);
-    view.glare.clear();
-    if (view.camera.orthographic_width_m > 0.0) continue;  // no eye
-    view.glare = lamps.glare_at(moment.pose, view.camera.eye_m, world, view.air);
-    for (const auto& more : {from.traffic.glare_at(users, view.camera.eye_m, world, view.air),
-                             desk.fixed_light == std::size_t{0} ? std::vector<GlaringLamp>{}
-                                                                : from.fixed.glare_at(view.camera.eye_m, view.air)})
-      view.glare.insert(view.glare.end(), more.begin(), more.end());
+    view.glare = glare_into_eye(view, lamps, {moment.pose, from.traffic, users, from.fixed, world});
   }
   const bool lit = moment.controls.light_switch != LightSwitch::kOff;
   if (two) from.props.add_to(others.more_views.back(), second.kind, lamps, moment.pose, lit, world);
@@ -66,15 +61,9 @@ void add_versus(FrameInput& input, const Desk& desk, const Versus& versus, const
   std::vector<PlacedLamp> of_others = input.lamps;
   std::erase_if(of_others, [](const PlacedLamp& lamp) { return !Traffic::is_theirs(lamp); });
   const glm::dvec3 eye_m = input.camera.eye_m;
-  std::vector<GlaringLamp> glare;
-  if (input.camera.orthographic_width_m <= 0.0) {
-    glare = versus.lamps()->glare_at(moment.pose, eye_m, world, input.air);
-    const auto users = from.traffic.at(moment.time.seconds(), from.road);
-    for (const auto& more :
-         {from.traffic.glare_at(users, eye_m, world, input.air),
-          desk.fixed_light == std::size_t{0} ? std::vector<GlaringLamp>{} : from.fixed.glare_at(eye_m, input.air)})
-      glare.insert(glare.end(), more.begin(), more.end());
-  }
+  const auto users = from.traffic.at(moment.time.seconds(), from.road);
+  std::vector<GlaringLamp> glare =
+      glare_into_eye(input, *versus.lamps(), {moment.pose, from.traffic, users, from.fixed, world});
   versus.show(input, desk.compare, moment.pose, of_others, std::move(glare));
   if (desk.compare == Compare::kSplit)
     input.more_views.front().pupils =

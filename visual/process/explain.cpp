@@ -9,6 +9,7 @@
 #include "visual/frame_facts.h"
 #include "visual/light_reach.h"
 #include "visual/process/eyeshine_of_lamps.h"
+#include "visual/process/glare_into_eye.h"
 #include "visual/process/overlay_lines.h"
 #include "visual/process/props.h"
 #include "visual/process/screens.h"
@@ -63,11 +64,7 @@ FrameInput frame_of_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   const std::vector<PlacedLamp> of_others =
       Traffic::placed_lamps(users, input.camera.eye_m, input.camera.world_from_eye[0], wet(desk));
   input.lamps.insert(input.lamps.end(), of_others.begin(), of_others.end());
-  input.glare = lamps.glare_at(moment.pose, input.camera.eye_m, world, input.air);
-  const std::vector<GlaringLamp> glaring = traffic.glare_at(users, input.camera.eye_m, world, input.air);
-  input.glare.insert(input.glare.end(), glaring.begin(), glaring.end());
-  const std::vector<GlaringLamp> beside = fixed.glare_at(input.camera.eye_m, input.air);
-  if (desk.fixed_light != std::size_t{0}) input.glare.insert(input.glare.end(), beside.begin(), beside.end());
+  input.glare = glare_into_eye(input, lamps, {moment.pose, traffic, users, fixed, world});
   if (const auto props = Props::of(movers))  // whoever has read them has looked
     props->add_to(input, desk.camera, lamps, moment.pose, controls.light_switch != LightSwitch::kOff, world);
   input.pupils = eyeshine_of(lamps, moment.pose, Pupils(scene, movers.meshes()), world, input.camera.eye_m, input.air);

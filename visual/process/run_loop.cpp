@@ -9,6 +9,7 @@
 
 #include "net/silence.h"
 #include "visual/air_of_desk.h"
+#include "visual/process/glare_into_eye.h"
 #include "visual/process/loop.h"
 #include "visual/process/overlay_lines.h"
 #include "visual/process/pick.h"
@@ -183,17 +184,8 @@ void Loop::mind_the_lamps(SimTime now) {
   if (const auto news = lamp_news_.of(now, s_.lamps)) s_.bus.send(now, *news);
 }
 
-/// What shines into the eye of a view: the car's own lamps as given, and those of others.
 std::vector<GlaringLamp> Loop::glare_in(const ViewInput& view, const VehicleState& pose, const Lamps& lamps) const {
-  if (view.camera.orthographic_width_m > 0.0) return {};  // no eye
-  std::vector<GlaringLamp> glare = lamps.glare_at(pose, view.camera.eye_m, world_, view.air);
-  const auto others = s_.traffic.glare_at(users_, view.camera.eye_m, world_, view.air);
-  glare.insert(glare.end(), others.begin(), others.end());
-  if (shown_.fixed_light != std::size_t{0}) {
-    const auto beside = s_.fixed_light->glare_at(view.camera.eye_m, view.air);
-    glare.insert(glare.end(), beside.begin(), beside.end());
-  }
-  return glare;
+  return glare_into_eye(view, lamps, {pose, s_.traffic, users_, *s_.fixed_light, world_});
 }
 
 /// The eyes besides the first, what shines into each, and what only some of them see. Returns the car's own tail lamps
