@@ -14,6 +14,7 @@
 #include "config/vehicle.h"
 #include "tools/child_process.h"
 #include "tools/commands.h"
+#include "tools/demo_drive.h"
 #include "tools/drive_folder.h"
 
 namespace phare {
@@ -106,6 +107,22 @@ void settle_out(DriveOptions& options) {
                options.out);
 }
 
+/// Nobody has named a drive, and nobody sits at the window: that of the scene, recorded where it is. A moment that is
+/// to be explained is of a recording or of none.
+void take_demo_drive(const Rig& rig, DriveOptions& options) {
+  if (const auto recording = demo_recording(rig, config_path(""))) {
+    options.drive = *recording;
+  } else if (const auto script = demo_script(rig, config_path(""))) {
+    if (!options.explain) options.script = *script;
+  } else if (const std::string country_road = config_path("drives/country_road.pcap"); fs::exists(country_road)) {
+    options.drive = country_road;
+    spdlog::warn(
+        "{} has no drive of its own: the car goes where it went on the country road, whatever is there; --script or "
+        "--drive name another",
+        rig.scene_file.string());
+  }
+}
+
 }  // namespace
 
 Result<Rig> prepare_drive(DriveOptions& options) {
@@ -135,8 +152,7 @@ Result<Rig> prepare_drive(DriveOptions& options) {
   const bool person = !options.headless && !options.lockstep && options.picture.frames == 0;
   const bool any_drive = !options.drive.empty() || !options.script.empty() || !options.log.empty();
   if (person) options.guide = any_drive ? "replay" : "live";
-  const std::string demo = config_path("drives/country_road.pcap");
-  if (!person && !any_drive && options.cockpit.empty() && fs::exists(demo)) options.drive = demo;
+  if (!person && !any_drive && options.cockpit.empty()) take_demo_drive(*rig, options);
   if (!options.drive.empty() && !options.level.empty() && options.level != "pose") {
     options.closed_loop = true;
     spdlog::warn(
@@ -173,8 +189,8 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
       "  phare drive --lamp led_low_beam.ies --lamp-high high_beam.ies --headless --lockstep --frames 60 --out own\n" +
       std::string(kLampFlagsHelp));
   command.add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
-  auto* drive_file =
-      command.add_option("--drive", options->drive, "Drive file to replay [without a window: the demo drive]");
+  auto* drive_file = command.add_option("--drive", options->drive,
+                                        "Drive file to replay [without a window: the demo drive of the scene]");
   auto* script = command.add_option("--script", options->script, "Script for the driver model")->excludes(drive_file);
   auto* log = command.add_option("--log", options->log, "candump log that moves the controls");
   log->excludes(drive_file)->excludes(script);

@@ -2,9 +2,12 @@
 
 #include <chrono>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "tools/commands.h"
+#include "tools/demo_drive.h"
 
 namespace phare {
 namespace {
@@ -14,15 +17,10 @@ namespace fs = std::filesystem;
 // In real time the drive begins when every picture is ready; a busy machine without a GPU took a minute.
 constexpr const char* kPictureWithin_s = "180";
 
-/// The demo driver knows one road.
-bool has_demo_driver(const Rig& rig) {
-  const auto demo = read_rig(config_path("rigs/country_road.toml"));
-  return demo && demo->scene_file == rig.scene_file;
-}
-
 /// What the processes are told where somebody sits at the window, and when to begin.
 void add_person(const Rig& rig, const DriveOptions& options, std::vector<ProcessSpec>& specs) {
-  const bool live = options.guide == "live", demo = has_demo_driver(rig);
+  const bool live = options.guide == "live";
+  const std::optional<std::string> demo = demo_script(rig, config_path(""));
   for (ProcessSpec& spec : specs) {
     const auto add = [&](std::initializer_list<std::string> words) {
       spec.arguments.insert(spec.arguments.end(), words);
@@ -30,7 +28,7 @@ void add_person(const Rig& rig, const DriveOptions& options, std::vector<Process
     const bool picture = spec.name.starts_with("visual-");
     if (!picture && !options.lockstep) add({"--wait-for-picture", kPictureWithin_s});
     if (spec.name == "cockpit" && live) add({"--any-gamepad"});
-    if (spec.name == "cockpit" && live && demo) add({"--demo", config_path("drives/country_road_script.toml")});
+    if (spec.name == "cockpit" && live && demo) add({"--demo", *demo});
     if (spec.name == "cockpit" && live && demo && options.demo_at_once) add({"--demo-at-once"});
     if (spec.name != "visual-0" || options.guide.empty()) continue;
     add({"--guide", options.guide});

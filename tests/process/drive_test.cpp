@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -109,6 +110,22 @@ TEST_F(DriveTest, FramesAreOfADriveAndNotAllTheSame) {
     EXPECT_GT(counts["received"], 0) << process;
     for (const char* bad : {"lost", "late", "refused", "restarted"}) EXPECT_EQ(counts[bad], 0) << process << " " << bad;
   }
+}
+
+// Nobody named a drive: on another of our roads the car begins on the lane of that one.
+TEST_F(DriveTest, AnotherOfOurRoadsIsDrivenAlongItsOwnLane) {
+  const fs::path out = folder_ / "motorway";
+  ASSERT_EQ(drive(out, folder_ / "home",
+                  {"--frames", "2", "--validation", "--rig", source_dir() + "/config/rigs/motorway.toml"}),
+            0);
+  std::ifstream rows(out / "drive.csv");
+  std::string names, first;
+  ASSERT_TRUE(std::getline(rows, names) && std::getline(rows, first));
+  ASSERT_EQ(names.rfind("frame,time_s,x_m,y_m,", 0), 0u) << names;
+  double x_m = NAN, y_m = NAN;
+  ASSERT_EQ(std::sscanf(first.c_str(), "%*d,%*f,%lf,%lf,", &x_m, &y_m), 2) << first;
+  EXPECT_NEAR(x_m, 0.0, 1e-6);
+  EXPECT_NEAR(y_m, -8.375, 1e-6);  // the motorway's right lane; the country road's lies at -1.625
 }
 
 // Beam images are summed when a light changes, at most one for each of two headlamps and two fog lamps, and in no other
