@@ -149,6 +149,8 @@ int explain_drive(DriveOptions& options) {
     while (!(end = child->ended())) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     exit_code = end->signal != 0 ? kExitCheckFailed : end->exit_code;
   }
+  if (exit_code == kExitDone && !options.drive_told.empty() && options.explain_light.empty() && !options.explain_fog)
+    spdlog::warn(options.drive_told);
   return exit_code;
 }
 
@@ -393,6 +395,7 @@ int drive_once(DriveOptions& options, std::optional<Wish>& wish) {
   if (*started) return **started;
   // All that was named has been read, and nobody has written anything: an earlier drive lies as it lay.
   tell_of_lamps(options.lamp_told);
+  if (!options.drive_told.empty()) spdlog::warn(options.drive_told);
   if (const Status room = drive.make_room(); !room) return bad_input(room.error());
   drive.run(wish);
   return drive.finish();

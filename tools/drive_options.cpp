@@ -116,10 +116,9 @@ void take_demo_drive(const Rig& rig, DriveOptions& options) {
     if (!options.explain) options.script = *script;
   } else if (const std::string country_road = config_path("drives/country_road.pcap"); fs::exists(country_road)) {
     options.drive = country_road;
-    spdlog::warn(
-        "{} has no drive of its own: the car goes where it went on the country road, whatever is there; --script or "
-        "--drive name another",
-        rig.scene_file.string());
+    options.drive_told = rig.scene_file.string() +
+                         " has no drive of its own: the car goes where it went on the country road, whatever is "
+                         "there; --script or --drive name another";
   }
 }
 

@@ -33,6 +33,7 @@ struct DriveOptions {
   bool made_design = false;       ///< a design is driven that the rig's file does not have
   std::vector<std::string> desk;  ///< what they set of the picture, as --set has it
   LampDesignNotes lamp_told;      ///< what became of them
+  std::string drive_told;         ///< a warning about the drive that was taken because none was named; empty: none
   std::string lamp_notes;         ///< the same, as the derived rig says it
   std::vector<std::string> command;
   std::string level, vehicle;                 ///< of the car, instead of the rig's
