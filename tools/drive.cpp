@@ -126,15 +126,13 @@ int explain_drive(DriveOptions& options) {
     if (const Status status = derived->write(*rig, options.lamp_notes); !status) return bad_input(status.error());
     rig->file = derived->file();
   }
+  const bool of_drive = !options.drive.empty() && options.explain_light.empty() && !options.explain_fog;
   int exit_code = kExitDone;
   for (std::size_t channel = 0; channel < rig->channels.size() && exit_code == kExitDone; ++channel) {
     std::vector<std::string> arguments{"--rig", rig->file.string(), "--channel", std::to_string(channel), "--explain"};
     if (options.headless) arguments.push_back("--headless");
-    if (!options.explain_light.empty()) {
-      arguments.insert(arguments.end(), {"--light", options.explain_light});
-    } else if (!options.drive.empty() && !options.explain_fog) {
-      arguments.insert(arguments.end(), {"--drive", options.drive});
-    }
+    if (!options.explain_light.empty()) arguments.insert(arguments.end(), {"--light", options.explain_light});
+    if (of_drive) arguments.insert(arguments.end(), {"--drive", options.drive});
     if (options.explain_fog) arguments.push_back("--fog");
     if (options.explain_cost) arguments.push_back("--cost");
     if (options.lockstep) arguments.push_back("--lockstep");
@@ -149,8 +147,7 @@ int explain_drive(DriveOptions& options) {
     while (!(end = child->ended())) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     exit_code = end->signal != 0 ? kExitCheckFailed : end->exit_code;
   }
-  if (exit_code == kExitDone && !options.drive_told.empty() && options.explain_light.empty() && !options.explain_fog)
-    spdlog::warn(options.drive_told);
+  if (exit_code == kExitDone && of_drive && !options.drive_told.empty()) spdlog::warn(options.drive_told);
   return exit_code;
 }
 

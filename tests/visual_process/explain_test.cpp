@@ -58,6 +58,22 @@ class Explain : public testing::Test {
   const std::string device_ = "a card";
 };
 
+// Asked about no drive, the car stands on its lane, not wherever the scene has its origin: on the motorway that is a
+// guard rail.
+TEST_F(Explain, WithoutADriveTheCarStandsWhereOneBegins) {
+  const auto folder = std::filesystem::path(testing::TempDir());
+  std::ofstream(folder / "explained_lane.csv") << "s_m,x_m,y_m,z_m,heading_rad,curvature_1pm\n"
+                                                  "0,3,-8.375,0.5,0.25,0\n10,12.7,-5.9,0.5,0.25,0\n";
+  const AskedMoment there = moment_at_rest(folder / "explained.glb", LightSwitch::kHigh, true);
+  EXPECT_EQ(there.pose.x_m, 3.0);
+  EXPECT_EQ(there.pose.y_m, -8.375);
+  EXPECT_EQ(there.pose.z_m, 0.5);
+  EXPECT_EQ(there.pose.yaw_rad, 0.25);
+  EXPECT_EQ(there.controls.light_switch, LightSwitch::kHigh);
+  EXPECT_TRUE(there.controls.fog_front);
+  EXPECT_EQ(moment_at_rest(folder / "without_lane.glb", LightSwitch::kLow, false).pose.x_m, 0.0);
+}
+
 /// The whole plan of a drive in fog: fog, and nothing that clear air has not.
 TEST_F(Explain, FogCallsForFogAlone) {
   const auto clear = lines(moment(LightSwitch::kLow), device_);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "config/road/lane.h"
 #include "visual/air_of_desk.h"
 #include "visual/frame_facts.h"
 #include "visual/light_reach.h"
@@ -35,6 +36,17 @@ Result<AskedMoment> moment_of_drive(const Drive& drive, double at_s) {
   moment.time.ns = static_cast<std::int64_t>(at_s * 1e9);
   moment.controls = *controls;
   moment.pose = *pose;
+  return moment;
+}
+
+AskedMoment moment_at_rest(const std::filesystem::path& scene_file, LightSwitch light, bool fog_front) {
+  AskedMoment moment;
+  moment.controls.light_switch = light;
+  moment.controls.fog_front = fog_front;
+  if (const auto start = read_lane_start(lane_file_of(scene_file))) {
+    moment.pose.x_m = start->x_m, moment.pose.y_m = start->y_m, moment.pose.z_m = start->z_m;
+    moment.pose.yaw_rad = start->heading_rad;
+  }
   return moment;
 }
 

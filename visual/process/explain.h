@@ -2,6 +2,7 @@
 // and the words for what each takes, where the moment has been drawn (cost_of_moment.h).
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "config/base/result.h"
@@ -24,6 +25,10 @@ struct AskedMoment {
 
 /// A drive at `at_s` of simulated time: the newest controls and the newest pose until then. Error: it has neither.
 Result<AskedMoment> moment_of_drive(const Drive& drive, double at_s);
+
+/// No drive: the car at rest where one of this scene begins, on the first row of its lane; without a lane at the
+/// world's origin.
+AskedMoment moment_at_rest(const std::filesystem::path& scene_file, LightSwitch light, bool fog_front);
 
 /// What the picture of that moment is drawn from, as the first eye sees it; nothing lies over it. Switches `lamps` to
 /// the moment.

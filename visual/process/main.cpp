@@ -81,9 +81,7 @@ int explain_and_leave(const VisualOptions& options, const Rig& rig, Lamps& lamps
   AskedMoment moment, before;
   if (options.drive_file.empty()) {
     if (options.still_at_s >= 0.0) return refuse({"--still-at", "is a moment of a drive, and none is asked about"});
-    moment.controls.light_switch = options.explain_light;
-    moment.controls.fog_front = options.explain_fog;
-    before = moment;
+    before = moment = moment_at_rest(rig.scene_file, options.explain_light, options.explain_fog);
   } else {
     const Result<Drive> drive = read_drive(options.drive_file);
     if (!drive) return refuse(drive.error());
