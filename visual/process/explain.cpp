@@ -146,9 +146,10 @@ std::string explain_costs(const FrameStats& drawn, const FrameResult& anew, Pict
   };
   const auto in_ms = [](const LogHistogram& times) { return fmt::format("{:.2f}", times.percentile(0.5)); };
 
-  std::string text =
-      fmt::format("# {} × {}, medians of {} frames: {} ms a frame, {} ms of them on the device\n", size.width_px,
-                  size.height_px, drawn.frames, in_ms(drawn.wall_ms), in_ms(drawn.gpu_ms));
+  std::string text = fmt::format(
+      "# {} × {}, medians of {} frames: {} ms a frame, {} ms of them on the device; {} draws of {} triangles\n",
+      size.width_px, size.height_px, drawn.frames, in_ms(drawn.wall_ms), in_ms(drawn.gpu_ms), frame.draws,
+      frame.triangles);
   text += line("# effect", "level", "passes", "bytes", "ms", "because");
   std::string kept;
   for (const EffectRow& row : effect_table()) {
