@@ -18,10 +18,7 @@ struct Told {
   std::string text;  ///< on stdout and stderr
 };
 
-/// `phare drive --headless --lockstep --size 160x90 --explain … words`, after words for env.
-Told explain_with(const std::string& words, const std::string& environment = "") {
-  const std::string command = "timeout 110 env -u DISPLAY -u WAYLAND_DISPLAY " + environment + " '" + program("phare") +
-                              "' drive --headless --lockstep --size 160x90 --explain " + words + " 2>&1 </dev/null";
+Told told_by(const std::string& command) {
   Told told;
   FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return told;
@@ -29,6 +26,12 @@ Told explain_with(const std::string& words, const std::string& environment = "")
   const int status = pclose(pipe);
   told.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return told;
+}
+
+/// `phare drive --headless --lockstep --size 160x90 --explain … words`, after words for env.
+Told explain_with(const std::string& words, const std::string& environment = "") {
+  return told_by("timeout 110 env -u DISPLAY -u WAYLAND_DISPLAY " + environment + " '" + program("phare") +
+                 "' drive --headless --lockstep --size 160x90 --explain " + words + " 2>&1 </dev/null");
 }
 
 struct Row {
@@ -82,6 +85,12 @@ void expect_same(const std::vector<std::string>& set, const std::vector<std::str
     passes += row.passes;
   }
   EXPECT_EQ(passes, report["passes"]) << told.text;
+  // The car of the drive is driven, that of the moment recorded: a few of the triangles may be others.
+  const std::string drawn = report["draws"].dump() + " draws of ";
+  const std::size_t at = told.text.find(drawn);
+  ASSERT_NE(at, std::string::npos) << drawn << told.text;
+  const double triangles = report["triangles"];
+  EXPECT_NEAR(std::stod(told.text.substr(at + drawn.size())), triangles, 0.005 * triangles) << told.text;
   for (const std::string& name : on)
     EXPECT_GT(rows.at(name).passes + rows.at(name).bytes, 0u) << name << " is to be on";
 }
@@ -116,6 +125,18 @@ TEST(ExplainCost, NeedsADevice) {
   EXPECT_TRUE(cost.text.starts_with("phare-visual: ")) << cost.text;
   EXPECT_NE(cost.text.find("Vulkan"), std::string::npos) << cost.text;
   EXPECT_EQ(explain_with("--light low --cost --device absent").code, kExitBadInput);
+}
+
+// Who explains may be killed, or fall.
+TEST(ExplainCost, SaysThatItsProgramWasKilled) {
+  const Told told =
+      told_by("'" + program("phare") +
+              "' drive --headless --size 160x90 --explain --cost --frames 1000000 2>&1 </dev/null & P=$!; "
+              "for i in $(seq 400); do "
+              "kill -SEGV $(cat /proc/$P/task/$P/children) 2>/dev/null && break; sleep 0.05; done; "
+              "wait $P");
+  EXPECT_EQ(told.code, kExitCheckFailed) << told.text;
+  EXPECT_NE(told.text.find("phare: phare-visual, which explains, ended by SIGSEGV\n"), std::string::npos) << told.text;
 }
 
 // While nothing moves a grid of fog is kept: what it took is told.
