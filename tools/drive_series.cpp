@@ -107,7 +107,7 @@ Result<std::optional<DriveSeries>> read_drive_series(const std::filesystem::path
                                          {series.de_boer, "de_boer"}}};
   for (const GlareLines& of : glare) of.lines = {{.name = "the driver"}, {.name = "who comes toward the car"}};
   constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-  double x_m = kNone, y_m = kNone;
+  double x_m = kNone, y_m = kNone, before_s = kNone;
   for (auto row = rows.next();; row = rows.next()) {
     if (!row) return row.error();
     if (!*row) break;
@@ -130,8 +130,11 @@ Result<std::optional<DriveSeries>> read_drive_series(const std::filesystem::path
     }
     series.lit.back().to_s = time_s;
     const double to_x_m = rows.number("x_m"), to_y_m = rows.number("y_m");
-    if (!std::isnan(x_m)) series.distance_m += std::hypot(to_x_m - x_m, to_y_m - y_m);
-    x_m = to_x_m, y_m = to_y_m;
+    if (time_s > before_s) {  // else somebody has sought, and the car was set elsewhere
+      series.driven_s += time_s - before_s;
+      series.distance_m += std::hypot(to_x_m - x_m, to_y_m - y_m);
+    }
+    x_m = to_x_m, y_m = to_y_m, before_s = time_s;
   }
   for (const GlareLines& of : glare)
     std::erase_if(of.lines, [](const TimeSeries& line) {
@@ -147,7 +150,7 @@ Result<std::optional<DriveSeries>> read_drive_series(const std::filesystem::path
 
 nlohmann::json figures_of(const DriveSeries& series) {
   nlohmann::json figures{{"rows", series.rows}, {"distance_m", series.distance_m}};
-  if (series.rows > 0) figures["driven_s"] = series.speed_kmh.time_s.back() - series.speed_kmh.time_s.front();
+  if (series.rows > 0) figures["driven_s"] = series.driven_s;
   const auto put = [](nlohmann::json& into, const std::string& key, const std::vector<double>& values) {
     if (nlohmann::json spread = spread_of(values); !spread.is_null()) into[key] = std::move(spread);
   };

@@ -31,7 +31,7 @@ struct DriveSeries {
   };
 
   std::size_t rows = 0;
-  double distance_m = 0.0;  ///< along the rows' places
+  double driven_s = 0.0, distance_m = 0.0;  ///< from row to row, where time does not go back
   TimeSeries speed_kmh, pitch_deg, cutoff_m;
   std::vector<TimeSeries> reach_m;    ///< left and right of each level, as drive.csv names them
   std::vector<TimeSeries> probes_lx;  ///< of probes.csv; none where it is not there

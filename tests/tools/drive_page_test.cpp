@@ -107,6 +107,18 @@ TEST_F(DrivePage, ReadsItsSeries) {
       << broken.error().text();
 }
 
+// Where somebody sought, the car was set elsewhere: that is no way.
+TEST_F(DrivePage, ASeekBackIsNoWay) {
+  std::ofstream csv(out_ / "drive.csv");
+  csv << "frame,time_s,x_m,y_m,pitch_rad,speed_mps,lit,design,picture,cutoff_25m_m\n";
+  for (const double t : {3.0, 3.1, 3.2, 1.0, 1.1})
+    csv << "0," << t << "," << 10.0 * t << ",0,0,10,\"low\",\"one\",0,0.4\n";
+  csv.close();
+  const json figures = figures_of(**read_drive_series(out_));
+  EXPECT_NEAR(figures["distance_m"].get<double>(), 3.0, 1e-9);
+  EXPECT_NEAR(figures["driven_s"].get<double>(), 0.3, 1e-9);
+}
+
 TEST_F(DrivePage, OpensWithWhatWasDrivenAndHasEveryPicture) {
   const json told = report();
   const std::string page = report_page(told, out_);

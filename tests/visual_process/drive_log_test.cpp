@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <numeric>
 #include <sstream>
 
 #include "tests/paths.h"
@@ -84,6 +85,32 @@ TEST(DriveLog, HasOneRowAFrameAlsoOverARestart) {
   EXPECT_NE(lines[1].find(",\"a, \"\"b\"\"\",0,0,0,0.41000,80.0,90.0,50.0,60.0,40.0,45.5,"), std::string::npos)
       << lines[1];
   EXPECT_NE(lines[2].find(",0.41000,,,,,,,"), std::string::npos) << lines[2];
+  fs::remove_all(folder);
+}
+
+// Somebody had sought back, and the process began anew: what was driven before stays.
+TEST(DriveLog, KeepsRowsOfBeforeASeekOverARestart) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("phare_drive_log_seek_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  const auto write = [](DriveLog& log, std::int64_t from, std::int64_t to) {
+    for (std::int64_t frame = from; frame < to; ++frame) ASSERT_TRUE(log.write(row_of(frame)));
+  };
+  {
+    DriveLog log(folder, false);
+    write(log, 0, 20);
+    write(log, 4, 10);  // back by 16 frames
+  }
+  {
+    DriveLog log(folder, true);
+    write(log, 8, 12);
+  }
+  std::vector<std::int64_t> frames;
+  const std::vector<std::string> lines = lines_of(folder / "drive.csv");
+  for (std::size_t i = 1; i < lines.size(); ++i) frames.push_back(std::atoll(lines[i].c_str()));
+  std::vector<std::int64_t> expected(20);
+  std::iota(expected.begin(), expected.end(), 0);
+  for (const std::int64_t frame : {4, 5, 6, 7, 8, 9, 10, 11}) expected.push_back(frame);
+  EXPECT_EQ(frames, expected);
   fs::remove_all(folder);
 }
 

@@ -83,6 +83,9 @@ TEST(PoseBuffer, TimeToShowStandsWithTheCarAndDoesNotGoBack) {
   EXPECT_EQ(poses.time_to_show(at_ms(1210), at_ms(1200)), at_ms(1204));
   poses.push(at_ms(300), VehicleState{});  // a seek
   EXPECT_EQ(poses.time_to_show(at_ms(300), at_ms(1204)), at_ms(300));
+  poses.push(at_ms(200), VehicleState{});  // one by little, in a pause: the same time comes again and again
+  poses.push(at_ms(200), VehicleState{});
+  EXPECT_EQ(poses.time_to_show(at_ms(200), at_ms(300)), at_ms(200));
 }
 
 TEST(PoseBuffer, ASeekBackBeginsAnew) {

@@ -209,7 +209,11 @@ OverlayPass::OverlayPass(gpu::Device& device, vk::Format format, std::uint32_t h
 }
 
 OverlayPass::~OverlayPass() {
-  device_.device.waitIdle();
+  try {
+    device_.device.waitIdle();
+  } catch (const vk::SystemError&) {
+    // Of a device that was lost nothing is left to wait for.
+  }
   ImGui::SetCurrentContext(context_);
   ImGui_ImplVulkan_Shutdown();
   ImGui::DestroyContext(context_);

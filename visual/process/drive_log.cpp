@@ -82,11 +82,14 @@ void DriveLog::begin(SimTime now) {
   if (std::ifstream before(file_); going_on_ && before) {
     std::string line;
     std::getline(before, line);
+    std::size_t until_now = kept.size();  // time goes back where somebody has sought
     while (std::getline(before, line) && !before.eof()) {
       const std::size_t comma = line.find(',');
-      if (comma == std::string::npos || std::atof(line.c_str() + comma + 1) > now.seconds() - 1e-6) break;
+      if (comma == std::string::npos) break;
       kept += line + "\n";
+      if (std::atof(line.c_str() + comma + 1) <= now.seconds() - 1e-6) until_now = kept.size();
     }
+    kept.resize(until_now);
   }
   stream_.open(file_, std::ios::trunc);
   stream_ << kept;

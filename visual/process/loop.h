@@ -178,7 +178,7 @@ class Loop {
   DisplayClock clock_;
   std::int64_t drawn_index_ = -1;  // lockstep
   std::int64_t drawn_frames_ = 0;
-  std::int64_t next_picture_ns_ = 0, next_eye_ns_ = 0;
+  std::int64_t newest_picture_ = -1, newest_eye_ = -1;  ///< which of their intervals of simulated time
   Clock::time_point progress_ = Clock::now(), stats_written_ = Clock::now(), frame_end_{};
   Screens screens_;
   RoadEnd road_end_{s_.scene, s_.lane};

@@ -113,7 +113,7 @@ void Loop::take_audit() {
   const auto samples = s_.renderer.take_audit(kPixels, static_cast<std::uint64_t>(audit_->number) + 1);
   if (!samples) return;
   const std::unique_ptr<AskedAudit> of = std::exchange(audit_, nullptr);
-  const AuditMoment where{
+  AuditMoment where{
       .frame = of->number,
       .time_s = of->moment.time.seconds(),
       .width_px = of->size.width_px,
@@ -121,7 +121,9 @@ void Loop::take_audit() {
       .bound = audit_bound(s_.options.beam_image.value_or(s_.rig.beam_image), of->view.method, s_.options.audit_bound),
       .eye_m = of->view.camera.eye_m,
       .scene = &s_.scene,
-      .by_lamp = [&](const MeasurePoint& at) { return lux_by_lamp(of->view.lamps, at); }};
+      .by_lamp = {}};
+  if (of->lamps.design_index() == s_.lamps.design_index())  // else the beams on the device are another's
+    where.by_lamp = [&](const MeasurePoint& at) { return lux_by_lamp(of->view.lamps, at); };
   const auto failure = s_.audit.add(of->lamps, of->moment.car.pose, *samples, where);
   // A lockstep drive fails by it: its launcher says so, once; without one we do, when we leave.
   if (failure && !s_.options.lockstep) spdlog::warn("self-audit: {}", failure->text());

@@ -27,9 +27,10 @@ void set_beams(Renderer& renderer, const Lamps& lamps, const VehicleState& pose,
 }  // namespace
 
 void Loop::keep(const Moment& moment) {
-  if (!s_.eye.fixed() && (s_.options.lockstep || moment.time.ns >= next_eye_ns_)) {
+  const std::int64_t eye = moment.time.ns / kEye_ns;
+  if (!s_.eye.fixed() && (s_.options.lockstep || eye != newest_eye_)) {
     s_.album.keep_eye(s_.eye.json());
-    next_eye_ns_ = moment.time.ns + kEye_ns;
+    newest_eye_ = eye;
   }
   if (captured_) capture_ = {number_of(moment), moment, label(moment)};
   if (wants_stills(moment)) still_ = still_of(moment);
@@ -177,9 +178,8 @@ bool Loop::wants_picture(const Moment& moment) {
   if (s_.album.busy()) return false;
   if (s_.options.video) return true;
   const std::int64_t every_ns = s_.options.channel == 0 ? kKeyframe_ns : 1'000'000'000;
-  if (moment.time.ns < next_picture_ns_) return false;
-  next_picture_ns_ = (moment.time.ns / every_ns + 1) * every_ns;
-  return true;
+  const std::int64_t picture = moment.time.ns / every_ns;
+  return std::exchange(newest_picture_, picture) != picture;
 }
 
 /// Low beam at speed past the wanted time tells most; at the end whatever there is.

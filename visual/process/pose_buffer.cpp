@@ -52,8 +52,9 @@ VehicleState extrapolate(const VehicleState& state, double seconds) {
 }
 
 void PoseBuffer::push(SimTime time, const VehicleState& state) {
+  standing_ = count_ > 0 && time == ring_[newest_].time;
   if (count_ > 0 && time <= ring_[newest_].time) {
-    const bool same = time == ring_[newest_].time;
+    const bool same = standing_;
     count_ = same ? count_ - 1 : 0;
     if (same) newest_ = (newest_ + ring_.size() - 1) % ring_.size();  // replaced below
   }
@@ -66,7 +67,7 @@ SimTime PoseBuffer::time_to_show(SimTime wanted, std::optional<SimTime> shown) c
   constexpr auto kCoast_ns = static_cast<std::int64_t>(kCoast_s * 1e9);
   if (count_ == 0) return wanted;
   const SimTime time{std::min(wanted.ns, ring_[newest_].time.ns + kCoast_ns)};
-  const bool a_little_behind = shown && time < *shown && shown->ns - time.ns <= kCoast_ns;
+  const bool a_little_behind = shown && time < *shown && shown->ns - time.ns <= kCoast_ns && !standing_;
   return a_little_behind ? *shown : time;
 }
 

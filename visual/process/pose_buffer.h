@@ -28,8 +28,8 @@ class PoseBuffer {
   };
 
   /// Simulated time that the picture may show at `wanted`: no further than the coast past the newest pose, for the car
-  /// is nowhere yet; and not before `shown`, which others have been told, when the car comes back a little behind it. A
-  /// seek goes back for good.
+  /// is nowhere yet; and not before `shown`, which others have been told, when the car comes back a little behind it
+  /// and drives on. A seek goes back for good, in a pause however little.
   SimTime time_to_show(SimTime wanted, std::optional<SimTime> shown) const;
 
   /// Poses that go back in time (a seek, a new start) clear the buffer.
@@ -44,6 +44,7 @@ class PoseBuffer {
   std::array<Entry, 16> ring_{};
   std::size_t count_ = 0;   // of valid entries
   std::size_t newest_ = 0;  // index
+  bool standing_ = false;   // the newest came again with the same time
 };
 
 /// Simulated time of now in real time, from the stamps of the messages that came: simulation runs at the speed of the
