@@ -15,4 +15,9 @@ inline bool wet(const Desk& desk) {
   return desk.ground.value_or(desk.rain_mmph > 0.0 ? 1 : 0) > 0;
 }
 
+/// What shows most of others' lamps is their light in a mirror or in the air (visual/process/traffic.h).
+inline bool lamps_toward_first(const Desk& desk) {
+  return wet(desk) || extinction_per_m(air_of(desk)) > 0.0;
+}
+
 }  // namespace phare

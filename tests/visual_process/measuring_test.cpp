@@ -248,6 +248,15 @@ TEST(PictureMarks, AnInsetIsKeptClearOfLinesAndLabels) {
   EXPECT_EQ(picture.labels[1].text, "30 m");
 }
 
+// The numbers of a scale stand close to where the other half begins.
+TEST(PictureMarks, ALabelEndsWithItsText) {
+  OverlayMarks picture;
+  picture.labels = {{0.478, 0.5, "100", {}}, {0.478, 0.6, "a longer one", {}}};
+  keep_clear(picture, {0.5, 0.0, 0.5, 1.0});
+  ASSERT_EQ(picture.labels.size(), 1u);
+  EXPECT_EQ(picture.labels[0].text, "100");
+}
+
 TEST_F(Measuring, MarksAreSeenWhereTheyLie) {
   Camera camera;
   camera.eye_m = {0.0, 0.0, 3.2};

@@ -101,7 +101,14 @@ TEST(Cameras, MirrorsTurnLeftAndRightRound) {
   const Camera right = mirror_camera(CameraKind::kRightMirror, channel, pose);
   EXPECT_NEAR(seen_at(right, {-60.0, -0.95, 1.0}).x, 0.0, 0.02);
   EXPECT_TRUE(ViewGeometry(right, 1.5).mirrored());
-  EXPECT_EQ(mirror_views(ViewInput{}, channel, pose).size(), 3u);
+  FrameInput picture;
+  picture.more_views = mirror_views(picture, channel, pose);
+  EXPECT_EQ(picture.more_views.size(), 3u);
+  lay_out(picture, Layout::kSplit, Camera{}, "other");
+  ASSERT_EQ(picture.more_views.size(), 4u);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_LE(picture.more_views[i].part.left_01 + picture.more_views[i].part.width_01, 0.5)
+        << "the other half would lie over it";
 }
 
 TEST(Cameras, TheFreeEyeStandsOnTheCarOrInTheWorld) {

@@ -10,6 +10,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "config/base/paths.h"
+#include "visual/air_of_desk.h"
 #include "visual/photometry/readers/read_lamp.h"
 #include "visual/scene/ray_hit.h"
 
@@ -62,6 +63,22 @@ speed_kmh = 36
   EXPECT_NEAR(glm::distance(then[0].world_from_user[0], glm::dvec3(-1.0, 0.0, 0.0)), 0.0, 1e-9) << "toward us";
   EXPECT_NEAR(glm::distance(then[0].world_from_user[1], glm::dvec3(0.0, -1.0, 0.0)), 0.0, 1e-9);
   EXPECT_TRUE(cars.at(20.1, road).empty());
+}
+
+// Two lamps light the scene. In the mirror of wet ground and in fog those show most that shine toward the eye.
+TEST_F(TrafficTest, WhoShinesTowardTheEyeComesFirstInFogAsOnWetGround) {
+  const Traffic cars =
+      traffic("[[road_user]]\nstart_s_m = 20\ndirection = \"same\"\n[[road_user]]\nstart_s_m = 60\noffset_m = 3.5\n");
+  const auto users = cars.at(0.0, straight());
+  const auto first_x_m = [&](std::optional<double> visibility_m, double rain_mmph, std::optional<std::size_t> ground) {
+    Desk desk;
+    desk.visibility_m = visibility_m, desk.rain_mmph = rain_mmph, desk.ground = ground;
+    return Traffic::placed_lamps(users, {0.0, 0.3, 1.2}, {1.0, 0.0, 0.0}, lamps_toward_first(desk)).at(0).position_m.x;
+  };
+  EXPECT_LT(first_x_m({}, 0.0, {}), 30.0) << "the nearest";
+  EXPECT_GT(first_x_m({}, 0.0, 1), 50.0) << "wet";
+  EXPECT_GT(first_x_m(300.0, 0.0, {}), 50.0) << "fog";
+  EXPECT_GT(first_x_m({}, 5.0, 0), 50.0) << "rain, over dry ground";
 }
 
 // Two low beams look along its way; each throws into an eye what its table has in that direction over the distance

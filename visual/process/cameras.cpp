@@ -170,6 +170,10 @@ void lay_out(FrameInput& frame, Layout layout, const Camera& second, std::string
   if (layout == Layout::kSplit) {
     frame.part = {0.0, 0.0, 0.5, 1.0}, view.part = {0.5, 0.0, 0.5, 1.0};
     for (Camera* half : {&frame.camera, &view.camera}) half->seen_from_01 = 0.25, half->seen_to_01 = 0.75;
+    for (ViewInput& mirror : frame.more_views) {  // half as large, in the first eye's half
+      PicturePart& part = mirror.part;
+      part = {0.5 * part.left_01, part.top_01, 0.5 * part.width_01, 0.5 * part.height_01};
+    }
   }
   frame.more_views.push_back(std::move(view));
 }

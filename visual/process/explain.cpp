@@ -74,7 +74,7 @@ FrameInput frame_of_moment(Lamps& lamps, const Desk& desk, const ChannelConfig& 
   World world(scene, movers.meshes());
   world.move(input.moving);
   const std::vector<PlacedLamp> of_others =
-      Traffic::placed_lamps(users, input.camera.eye_m, input.camera.world_from_eye[0], wet(desk));
+      Traffic::placed_lamps(users, input.camera.eye_m, input.camera.world_from_eye[0], lamps_toward_first(desk));
   input.lamps.insert(input.lamps.end(), of_others.begin(), of_others.end());
   input.glare = glare_into_eye(input, lamps, {moment.pose, traffic, users, fixed, world});
   if (const auto props = Props::of(movers))  // whoever has read them has looked

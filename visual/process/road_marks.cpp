@@ -49,7 +49,8 @@ OverlayColour colour_of(double lx) {
 }
 
 /// Of "100 m" in a picture of 1280 × 720.
-constexpr double kLabelWidth_01 = 0.04, kLabelHeight_01 = 0.025;
+constexpr double kLabelWidth_01 = 0.04, kLabelHeight_01 = 0.025;  // of most
+constexpr double kLetterWidth_01 = 0.0065;
 
 /// Where a line of the eye's view cuts its near side; clip space with w the distance ahead.
 struct Seen {
@@ -308,7 +309,8 @@ void keep_clear(OverlayMarks& picture, const PicturePart& part) {
   }
   picture.lines = std::move(outside);
   std::erase_if(picture.labels, [&](const OverlayMarks::Label& label) {
-    return label.x_01 + kLabelWidth_01 > part.left_01 && label.x_01 < right &&
+    const double width = std::min(kLabelWidth_01, kLetterWidth_01 * static_cast<double>(label.text.size()));
+    return label.x_01 + width > part.left_01 && label.x_01 < right &&
            std::abs(label.y_01 - std::clamp(label.y_01, part.top_01, bottom)) < 0.5 * kLabelHeight_01;
   });
 }

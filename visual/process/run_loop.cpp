@@ -239,7 +239,7 @@ void Loop::draw(const Moment& moment) {
   input_.lamps = others_turn ? versus_.placed(moment.car.pose) : s_.lamps.placed(moment.car.pose);
   users_ = s_.traffic.at(moment.time.seconds(), measuring_.road());
   const std::vector<PlacedLamp> their_lamps =
-      Traffic::placed_lamps(users_, input_.camera.eye_m, input_.camera.world_from_eye[0], wet(shown_));
+      Traffic::placed_lamps(users_, input_.camera.eye_m, input_.camera.world_from_eye[0], lamps_toward_first(shown_));
   input_.lamps.insert(input_.lamps.end(), their_lamps.begin(), their_lamps.end());
   input_.moving = s_.traffic.placed_meshes(users_);
   input_.spraying.clear();

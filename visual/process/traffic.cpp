@@ -286,14 +286,14 @@ std::vector<PlacedMesh> Traffic::one_of_each(const glm::dvec3& place_m) const {
 }
 
 std::vector<PlacedLamp> Traffic::placed_lamps(std::span<const There> users, const glm::dvec3& eye_m,
-                                              const glm::dvec3& ahead, bool mirrored) {
+                                              const glm::dvec3& ahead, bool toward_first) {
   std::vector<std::size_t> near;
   for (std::size_t i = 0; i < users.size(); ++i) {
     const bool behind = glm::dot(users[i].position_m - eye_m, ahead) < 0.0;
     if (users[i].lights && !behind) near.push_back(i);
   }
   std::ranges::stable_sort(near, {}, [&](std::size_t i) { return glm::distance(users[i].position_m, eye_m); });
-  if (mirrored)
+  if (toward_first)
     std::ranges::stable_partition(
         near, [&](std::size_t i) { return glm::dot(headlamp_turn(users[i])[0], eye_m - users[i].position_m) > 0.0; });
   std::vector<PlacedLamp> lamps;

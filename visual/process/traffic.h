@@ -105,11 +105,11 @@ class Traffic {
   /// lit by block (visual/lit_scene.h) and every pipeline is made before the drive; with front fog lamps besides they
   /// are made in it, beside the frames (loop_lamps.cpp). Who is behind
   /// `eye_m` lights nothing that is seen along `ahead`: most of a follower's light falls on the car, which has no body.
-  /// All others only glare. `mirrored`: on wet ground those come first who shine toward the eye, for what shows most of
-  /// them is their light in its mirror.
+  /// All others only glare. `toward_first`: those come first who shine toward the eye, as on wet ground and in air that
+  /// is not clear, for what shows most of them there is their light in the mirror and in the air.
   static constexpr std::size_t kMostLamps = 2;
   static std::vector<PlacedLamp> placed_lamps(std::span<const There> users, const glm::dvec3& eye_m,
-                                              const glm::dvec3& ahead, bool mirrored = false);
+                                              const glm::dvec3& ahead, bool toward_first = false);
   /// Where their drivers' eyes are, looking along their way; of those who come toward us, lit or not: nobody
   /// else counts as glared at.
   struct Eye {
