@@ -1,6 +1,7 @@
 #include "visual/fixed_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -8,6 +9,7 @@
 #include <set>
 
 #include "shaders/lib/luminance.h"
+#include "shaders/lib/opening.h"
 #include "shaders/lib/road.h"
 #include "visual/photometry/beam/beam_composer.h"
 #include "visual/photometry/readers/read_lamp.h"
@@ -53,6 +55,7 @@ Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::pat
       const double peak_cd = table->peak_cd() * kind.scale;
       light.luminaires_.push_back({std::move(*table), {}, kind.scale, peak_cd});
       Luminaire& last = light.luminaires_.back();
+      last.opening = stated_opening(last.table);
       last.colour = light_colour({.table = &last.table,
                                   .colour_temperature_k = kind.colour_temperature_k,
                                   .chromaticity_xy = kind.chromaticity_xy});
@@ -117,6 +120,7 @@ Status FixedLight::add_lights_of(const Scene& scene) {
       kind.table = tables[light.profile];
       kind.has_table = true;
       kind.peak_cd = kind.table.peak_cd() * of_white;
+      kind.opening = stated_opening(kind.table);
     } else if (light.kind == SceneLight::Kind::kSpot) {
       kind.cos_inner = std::cos(light.inner_rad);
       kind.cos_outer = std::cos(light.outer_rad);
@@ -139,9 +143,32 @@ double FixedLight::candela(const Lamp& lamp, const glm::dvec3& way) const {
   return kind.scale * part * part;
 }
 
+double FixedLight::open_share(const glm::dvec3& from_m, const Lamp& lamp, double lx, double leave_within_m) const {
+  const auto seen = [&](const glm::dvec3& place_m) {
+    return !tree_.blocked(from_m, place_m, 1e-3, kOwnHousing_m, leave_within_m);
+  };
+  const std::optional<LampOpening>& opening = luminaires_[lamp.luminaire].opening;
+  if (!opening || lx < kLeastOfOpening_lx) return seen(lamp.position_m) ? 1.0 : 0.0;
+  const auto seen_at = [&](std::uint32_t i) {
+    const glm::vec2 place = shader::opening_place(i, kOpeningRays, opening->round);
+    const glm::dvec2 half_m(0.5 * opening->width_m, 0.5 * opening->height_m);
+    return seen(lamp.position_m +
+                glm::dvec3(0.0, half_m.x * static_cast<double>(place.x), half_m.y * static_cast<double>(place.y)) *
+                    lamp.lamp_from_world);
+  };
+  // Most points see all of it or nothing. These lie all over it.
+  constexpr std::array<std::uint32_t, 3> kFirst{0, 3, 7};
+  std::uint32_t open = 0;
+  for (const std::uint32_t i : kFirst) open += seen_at(i) ? 1 : 0;
+  if (open == 0 || open == kFirst.size()) return open > 0 ? 1.0 : 0.0;
+  for (std::uint32_t i = 0; i < kOpeningRays; ++i)
+    if (std::ranges::find(kFirst, i) == kFirst.end()) open += seen_at(i) ? 1 : 0;
+  return static_cast<double>(open) / kOpeningRays;
+}
+
 /// Calls add(share of the surface's lx, colour, direction, lx facing it) for all that reaches the point. `normal`:
 /// null, nothing faces away. `of_mesh`: as vertices keep it (kCover_m). `hidden`: for what would
-/// reach it and is hidden.
+/// reach it and is hidden, all of it.
 template <typename Add>
 void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, bool of_mesh, const Add& add,
                       bool hidden) const {
@@ -159,8 +186,11 @@ void FixedLight::each(const glm::dvec3& point_m, const glm::dvec3* normal, bool 
     if (kind.peak_cd * cosine < kLeastOfLamp_lx * r2) continue;
     const double facing_lx = candela(lamp, -way) / r2;
     if (facing_lx * cosine < kLeastOfLamp_lx) continue;
-    if (tree_.blocked(from_m, lamp.position_m, 1e-3, kOwnHousing_m, leave_within_m) != hidden) continue;
-    add(Share{.lamp = i, .lx = facing_lx * cosine}, kind.colour, way / r, facing_lx);
+    // What moves is lit by its middle alone, and coarsely.
+    const double open = open_share(from_m, lamp, normal != nullptr ? facing_lx * cosine : 0.0, leave_within_m);
+    if ((open > 0.0) == hidden) continue;
+    const double part = hidden ? 1.0 : open;
+    add(Share{.lamp = i, .lx = part * facing_lx * cosine}, kind.colour, way / r, part * facing_lx);
   }
   const auto from_far = [&](const Moon& moon, Share share) {
     const double cosine = normal != nullptr ? glm::dot(moon.toward, *normal) : 1.0;

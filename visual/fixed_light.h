@@ -1,17 +1,19 @@
 // Light that does not change while one drives: street lamps by their own photometry files, the moon, and surfaces that
 // shine by themselves. It falls on a scene that stands, so it is computed once, in float64, when the scene is loaded,
 // and kept at the vertices of meshes that are cut as finely as the light asks for, such that what lies between them is
-// nearest to it (visual/fixed_light_fit.h). A frame then pays for one interpolated number, however many lamps there are.
+// nearest to it (visual/fixed_light_fit.h). A frame then pays for one interpolated number, however many lamps there
+// are.
 //
 // Lamps of a glTF file (KHR_lights_punctual, EXT_lights_ies) are among them: point and spot by candela, the spot's cone
 // by the extension's own formula, directional ones by lux, as the moon.
 //
-// E = Σ I(C, gamma)·cos/r² with the shadows of what stands, as everywhere (README.md). Left out: lamps beyond kReach_m
-// or of less than kLeast_lx at a point; light that has been reflected before, but where the sky does not reach
-// (visual/reflected_light.h); shadows of what moves; retroreflection (nobody looks from a street lamp). Surfaces under
-// lamps above the road are Lambert's, but for asphalt: its vertices keep what an r-table makes of the lamps for an eye
-// from anywhere (FixedRoad). What moves is lit by how much light arrives at its middle and from where (Probe): 25 % of
-// a lamp off at worst. How far interpolation is off: docs/street-lamps.md. Checked by
+// E = Σ I(C, gamma)·cos/r² with the shadows of what stands, as everywhere (README.md). A lamp whose file states the
+// size of its opening is hidden in part, with the share of it that a point does not see; one without is a point. Left
+// out: lamps beyond kReach_m or of less than kLeast_lx at a point; light that has been reflected before, but where the
+// sky does not reach (visual/reflected_light.h); shadows of what moves; retroreflection (nobody looks from a street
+// lamp). Surfaces under lamps above the road are Lambert's, but for asphalt: its vertices keep what an r-table makes of
+// the lamps for an eye from anywhere (FixedRoad). What moves is lit by how much light arrives at its middle and from
+// where (Probe): 25 % of a lamp off at worst. How far interpolation is off: docs/street-lamps.md. Checked by
 // tests/visual_process/street_lamps_test.cpp.
 #pragma once
 
@@ -31,6 +33,7 @@
 #include "config/street_lamps.h"
 #include "visual/glare.h"
 #include "visual/photometry/table/intensity_table.h"
+#include "visual/photometry/table/opening.h"
 #include "visual/photometry/table/road_lobes.h"
 #include "visual/reflected_light.h"
 #include "visual/scene/far_mesh.h"
@@ -45,6 +48,11 @@ inline constexpr double kStreetLampReach_m = 200.0;
 inline constexpr double kLeastOfLamp_lx = 0.002;
 /// A lamp's own housing and pole, within this of its light, hide nothing.
 inline constexpr double kOwnHousing_m = 0.6;
+/// How many rays go to places of a lamp's opening. An edge along or across a rectangle is off by an eighth at most, and
+/// by 0.15 where it comes in on the side from which the first three are farthest.
+inline constexpr std::uint32_t kOpeningRays = 8;
+/// What gives a point less is seen or hidden as its middle is.
+inline constexpr double kLeastOfOpening_lx = 0.3;
 
 /// What a vertex keeps.
 struct FixedVertex {
@@ -129,8 +137,8 @@ class FixedLight {
   };
   /// In float64, with shadows: what falls on a point, strongest first.
   std::vector<Share> shares_at(const glm::dvec3& point_m, const glm::dvec3& normal) const;
-  /// The same of what would fall there and is hidden. `from_m`: where it comes from, of what has a direction alone
-  /// beyond the scene.
+  /// The same of what would fall there and is hidden, all of it. `from_m`: where it comes from, of what has a direction
+  /// alone beyond the scene.
   struct Hidden {
     Share share{};
     glm::dvec3 from_m{0.0};
@@ -171,6 +179,7 @@ class FixedLight {
     /// Of a lamp without a table: cosines of its cone, where its full light ends and where it is dark; -2: every way.
     bool has_table = true;
     double cos_inner = -2.0, cos_outer = -2.0;
+    std::optional<LampOpening> opening{};  ///< as its file states it; none: a point
   };
   struct Lamp {
     glm::dvec3 position_m{0.0};
@@ -181,6 +190,9 @@ class FixedLight {
   Status add_lights_of(const Scene& scene);
   /// cd into a direction of the world, of any length.
   double candela(const Lamp& lamp, const glm::dvec3& way) const;
+  /// The share of the lamp that nothing hides, 0 to 1. `lx`: what all of it gives. `leave_within_m`: as
+  /// RayTree::blocked().
+  double open_share(const glm::dvec3& from_m, const Lamp& lamp, double lx, double leave_within_m) const;
   template <typename Add>
   void each(const glm::dvec3& point_m, const glm::dvec3* normal, bool of_mesh, const Add& add,
             bool hidden = false) const;

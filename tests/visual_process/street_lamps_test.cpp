@@ -160,6 +160,43 @@ TEST(StreetLamps, WhatStandsHidesAndTheMoonIsALamp) {
   EXPECT_EQ(light->glare_at({-8.8, 0, 1}, {}).size(), 1u);
 }
 
+/// Of an opening of 40 cm, 8 m up, a board halfway up hides the share beyond twice its edge. A lamp without is a point.
+TEST(StreetLamps, AnOpeningIsHiddenInPart) {
+  Scene scene = square();
+  scene.materials.push_back({.name = "board", .double_sided = true});
+  for (const auto& [x, y] : {std::pair(0, -2), std::pair(4, -2), std::pair(4, 2), std::pair(0, 2)})
+    scene.vertices.push_back({glm::vec3(x, y, 4), glm::vec3(0, 0, 1)});
+  scene.chunks.push_back({.node = "board",
+                          .material = 1,
+                          .low_m = {0, -2, 4},
+                          .high_m = {4, 2, 4},
+                          .first_index = 0,
+                          .index_count = 6,
+                          .first_vertex = 4,
+                          .vertex_count = 4});
+  const auto light_of = [&](const char* name, const char* sizes) {
+    const fs::path lamp = written(name, "IESNA:LM-63-2002\n[TEST] even\n[MANUFAC] Phare\nTILT=NONE\n1 -1 1 2 1 1 2 " +
+                                            std::string(sizes) + "\n1 1 0\n0 90\n0\n1000 1000\n");
+    return FixedLight::of(scene,
+                          written("opening.toml", "[[luminaire]]\nname = \"even\"\nfile = \"" + lamp.string() + "\"\n" +
+                                                      lamp_text(0, 0, 8)),
+                          std::nullopt);
+  };
+  const auto wide = light_of("wide.ies", "0.4 0.4 0"), point = light_of("point.ies", "0 0 0");
+  ASSERT_TRUE(wide) << wide.error().text();
+  ASSERT_TRUE(point) << point.error().text();
+  const double most = 0.15;
+  for (double x = -0.3; x < 0.3; x += 0.01) {
+    const glm::dvec3 at(x, 0.0, 0.0);
+    const double whole_lx = 1000.0 * 8.0 / std::pow(64.0 + x * x, 1.5);
+    const double open = std::clamp(0.5 - x / 0.4, 0.0, 1.0);  // what lies above the way over the edge, at -x
+    EXPECT_NEAR(wide->lux_at(at, {0, 0, 1}) / whole_lx, open, most + 1e-9) << x;
+    EXPECT_NEAR(point->lux_at(at, {0, 0, 1}) / whole_lx, x < 0.0 ? 1.0 : 0.0, 1e-9) << x;
+  }
+  EXPECT_TRUE(wide->hidden_at({0.1, 0, 0}, {0, 0, 1}).empty()) << "half of it shines there";
+  EXPECT_EQ(wide->hidden_at({0.3, 0, 0}, {0, 0, 1}).size(), 1u);
+}
+
 /// What moves: a lamp's own E·cos(q) against E·(1/4 + cos(q)/2), which is a quarter off at worst (q = 0, 90° and 180°).
 /// A plate of 1 m, 5 cm thick, on the ground: what lies under it nobody sees, and it must not darken what lies around.
 TEST(StreetLamps, WhatNobodySeesIsNoShadowOnWhatIsSeen) {
