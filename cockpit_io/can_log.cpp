@@ -64,8 +64,9 @@ std::optional<std::string> convert(const std::filesystem::path& file) {
     std::string out;
     std::array<char, 65536> part{};
     for (std::size_t n = 0; (n = fread(part.data(), 1, part.size(), pipe)) > 0;) out.append(part.data(), n);
-    pclose(pipe);
+    const int status = pclose(pipe);
     if (!out.starts_with('#')) continue;
+    if (status != 0) out.append("\n#failed Python was ended before the end of the log");
     newest = std::move(out);
     if (!newest->starts_with("#missing")) break;
   }

@@ -69,6 +69,12 @@ TEST_F(CanLogs, ALogThatBreaksOffIsUsedUpToThere) {
   EXPECT_EQ(log->log.broken_lines, 1u);
   EXPECT_EQ(log->log.problems.back().reason, "python-can 9, BLFReader breaks off here: cut short");
   EXPECT_EQ(log->read_with, "python-can 9, BLFReader");
+  python_is("echo '#with python-can 9, BLFReader'; printf '(1.5) can0 123#00\\n(2.5) can0 1'; kill -KILL $$");
+  const auto killed = read_can_log(touched("a.BLF"));
+  ASSERT_TRUE(killed) << killed.error().text();
+  EXPECT_EQ(killed->log.entries.size(), 1u);
+  EXPECT_EQ(killed->log.problems.back().reason,
+            "python-can 9, BLFReader breaks off here: Python was ended before the end of the log");
   python_is("echo '#with python-can 4.1.0'; echo '#failed no such format'");
   EXPECT_NE(read_can_log(touched("a.mf4")).error().text().find("python-can 4.1.0: no such format"), std::string::npos);
 }
