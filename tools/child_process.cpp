@@ -60,9 +60,11 @@ std::optional<ProcessEnd> ChildProcess::ended() {
   if (end_) return end_;
   int status = 0;
   const pid_t reaped = waitpid(pid_, &status, WNOHANG);
-  if (reaped != pid_) return std::nullopt;
+  if (reaped == 0) return std::nullopt;
   end_ = ProcessEnd{};
-  if (WIFSIGNALED(status)) {
+  if (reaped != pid_) {
+    end_->exit_code = kExitCheckFailed;  // SIGCHLD is ignored: it has ended, and how has not been kept
+  } else if (WIFSIGNALED(status)) {
     end_->signal = WTERMSIG(status);
   } else {
     end_->exit_code = WEXITSTATUS(status);

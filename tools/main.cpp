@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -115,6 +116,7 @@ int run(int argc, char** argv) {
 }  // namespace phare
 
 int main(int argc, char** argv) {
+  std::signal(SIGCHLD, SIG_DFL);  // a parent that ignores it hands that down, and how our children end would be lost
   try {
     return phare::run(argc, argv);
   } catch (const std::exception& failure) {  // out of memory, a full disk under a stream: leave with a reason

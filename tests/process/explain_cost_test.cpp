@@ -139,6 +139,12 @@ TEST(ExplainCost, SaysThatItsProgramWasKilled) {
   EXPECT_NE(told.text.find("phare: phare-visual, which explains, ended by SIGSEGV\n"), std::string::npos) << told.text;
 }
 
+// Who ignores the ends of his children hands that down: ours are heard of all the same.
+TEST(Explain, EndsWhereTheCallerIgnoresTheEndsOfChildren) {
+  const Told told = explain_with("--light low", "--ignore-signal=CHLD");
+  EXPECT_EQ(told.code, 0) << told.text;
+}
+
 // While nothing moves a grid of fog is kept: what it took is told.
 TEST(ExplainCost, TellsWhatAStandingCarKeeps) {
   const Told told = explain_with("--light low --cost --frames 2 --set visibility_m=80");

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <thread>
 
 namespace phare {
@@ -70,6 +71,16 @@ TEST(ChildProcess, SaysHowItEnded) {
   for (int i = 0; i < 5000 && !end; ++i, std::this_thread::sleep_for(1ms)) end = child->ended();
   ASSERT_TRUE(end);
   EXPECT_EQ(end->text(), "SIGKILL");
+}
+
+TEST(ChildProcess, EndsWhereNobodyWasToHearOfIt) {
+  std::signal(SIGCHLD, SIG_IGN);
+  auto child = ChildProcess::start("/bin/true", {});
+  std::optional<ProcessEnd> end;
+  for (int i = 0; i < 5000 && child && !end; ++i, std::this_thread::sleep_for(1ms)) end = child->ended();
+  std::signal(SIGCHLD, SIG_DFL);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->exit_code, kExitCheckFailed);  // how is not known
 }
 
 TEST(Watchdog, TellsAHungProcessFromASlowOneAndFromOneThatHasJustBegun) {
