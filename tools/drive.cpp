@@ -319,8 +319,8 @@ void DriveRun::judge() {
   }
   bus_->poll();
   if (facts_.exit_code != kExitDone) return;
-  facts_.why = what_is_missing(not_kept_, recorded_);
-  if (!audits_.first.empty()) facts_.why = audits_.first + (facts_.why.empty() ? "" : "; " + facts_.why);
+  for (const std::string& reason : {audits_.first, supervisor_->ended_badly(), what_is_missing(not_kept_, recorded_)})
+    if (!reason.empty()) facts_.why += (facts_.why.empty() ? "" : "; ") + reason;
   if (!facts_.why.empty()) facts_.exit_code = kExitCheckFailed;
 }
 

@@ -148,6 +148,9 @@ void Supervisor::end_all(std::chrono::milliseconds grace, const std::function<bo
       if (const auto end = process.child->ended()) {
         process.last_end = end->text();
         process.child.reset();
+        const bool as_asked = end->signal == 0 ? end->exit_code == kExitDone : end->signal == SIGTERM || killed;
+        if (!as_asked)
+          ended_badly_ += (ended_badly_.empty() ? "" : "; ") + process.spec.name + " ended with " + process.last_end;
       } else {
         any = true;
       }

@@ -65,6 +65,8 @@ class Supervisor {
   /// Exit code for the launcher, and why when it is not 0.
   int exit_code() const { return exit_code_; }
   const std::string& why() const { return why_; }
+  /// Who did not end as asked when the drive was over: "dynamics ended with SIGSEGV". Our own signals are no fault.
+  const std::string& ended_badly() const { return ended_badly_; }
   const std::vector<Restart>& restarts() const { return restarts_; }
 
   struct Ended {
@@ -95,7 +97,7 @@ class Supervisor {
   std::vector<Restart> restarts_;
   Clock::time_point started_ = Clock::now();
   int exit_code_ = kExitDone;
-  std::string why_;
+  std::string why_, ended_badly_;
 };
 
 }  // namespace phare

@@ -33,6 +33,22 @@ TEST(Supervisor, EndsWhenThePicturesEnd) {
   ASSERT_EQ(supervisor.ends().size(), 2u);
   EXPECT_EQ(supervisor.ends()[0].how, "SIGTERM");
   EXPECT_EQ(supervisor.ends()[1].how, "exit 0");
+  EXPECT_EQ(supervisor.ended_badly(), "");
+}
+
+TEST(Supervisor, TellsWhoEndsBadlyWhenTheDriveIsOver) {
+  const auto dies = [](const std::string& how) {
+    return std::vector<std::string>{"-c", "trap '" + how + "' TERM; while :; do sleep 0.05; done"};
+  };
+  Supervisor supervisor({{"dynamics", "/bin/sh", dies("kill -SEGV $$")},
+                         {"cockpit", "/bin/sh", dies("exit 3")},
+                         {"visual-0", "/bin/sleep", {"0.3"}, true}});
+  ASSERT_TRUE(supervisor.start());
+  EXPECT_TRUE(over_within(supervisor, 5s));
+  supervisor.end_all(5s);
+  const std::string told = supervisor.ended_badly();
+  EXPECT_NE(told.find("dynamics ended with SIGSEGV"), std::string::npos) << told;
+  EXPECT_NE(told.find("cockpit ended with exit 3"), std::string::npos) << told;
 }
 
 TEST(Supervisor, GivesUpAfterFiveRestarts) {
