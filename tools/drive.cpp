@@ -177,6 +177,7 @@ class DriveRun {
   }
   void show_progress(DriveProgress& progress, const Newest<FrameReport>& report);
   void remember_restarts();
+  std::string validation_messages() const;
   void judge();
   void write_report();
 
@@ -309,6 +310,19 @@ void DriveRun::remember_restarts() {
     if (kept()) facts_.before_restarts.push_back(read_stats(options_.out, restarts[restarts_seen_].process));
 }
 
+/// What Vulkan's validation found, as the processes say that draw; empty: nothing.
+std::string DriveRun::validation_messages() const {
+  std::string found;
+  if (!kept()) return found;  // they have told it themselves
+  for (const std::string& name : facts_.process_names) {
+    const nlohmann::json stats = read_stats(options_.out, name);
+    const std::uint64_t count = stats.is_null() ? 0 : stats.value("validation_messages", std::uint64_t{0});
+    if (count > 0)
+      found += (found.empty() ? "" : "; ") + std::to_string(count) + " Vulkan validation messages in " + name;
+  }
+  return found;
+}
+
 /// How the drive ended, and whether all that was asked for is kept.
 void DriveRun::judge() {
   facts_.exit_code = supervisor_->exit_code();
@@ -319,7 +333,8 @@ void DriveRun::judge() {
   }
   bus_->poll();
   if (facts_.exit_code != kExitDone) return;
-  for (const std::string& reason : {audits_.first, supervisor_->ended_badly(), what_is_missing(not_kept_, recorded_)})
+  for (const std::string& reason :
+       {audits_.first, validation_messages(), supervisor_->ended_badly(), what_is_missing(not_kept_, recorded_)})
     if (!reason.empty()) facts_.why += (facts_.why.empty() ? "" : "; ") + reason;
   if (!facts_.why.empty()) facts_.exit_code = kExitCheckFailed;
 }

@@ -2,6 +2,8 @@
 // asked for, and no drive is lost. A slice of phare-fault-sweep, with its seed.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "tests/process/drive_run.h"
 #include "tests/process/faults.h"
 
@@ -31,6 +33,18 @@ INSTANTIATE_TEST_SUITE_P(
         FaultSetup{
             .kind = FaultSetup::Kind::kBoth, .faults = 2, .seed = 13, .longest_stop = std::chrono::milliseconds(1500)},
         FaultSetup{.kind = FaultSetup::Kind::kKill, .lockstep = true, .faults = 3, .seed = 14}));
+
+// Best practices are warned of in any drive: one that draws on is told of once, and not started again.
+TEST(Validation, FailsTheDriveOnce) {
+  const TemporaryFolder folder;
+  setenv("VK_LAYER_ENABLES", "VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT", 1);
+  const int exit_code = drive(folder / "out", folder.path(), {"--frames", "2", "--validation"});
+  unsetenv("VK_LAYER_ENABLES");
+  EXPECT_EQ(exit_code, kExitCheckFailed);
+  const nlohmann::json report = report_of(folder / "out");
+  EXPECT_TRUE(report["restarts"].empty());
+  EXPECT_NE(report["why"].get<std::string>().find("Vulkan validation messages in visual-0"), std::string::npos);
+}
 
 }  // namespace
 }  // namespace phare::test
