@@ -79,7 +79,11 @@ bool make_video(const fs::path& out, const DriveSeries& series, std::int64_t fra
                                                     "-f",
                                                     "mp4",
                                                     "drive.mp4.part"});
-  if (!child) return false;
+  if (!child) {
+    spdlog::warn("{}, so no drive.mp4", child.error().text());
+    fs::remove(list, ignored);
+    return false;
+  }
   const auto deadline = Clock::now() + std::chrono::minutes(10);
   std::optional<ProcessEnd> end;
   while (!(end = child->ended()) && Clock::now() < deadline && !stop())

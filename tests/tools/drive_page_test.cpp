@@ -1,9 +1,11 @@
 // unit: the page of a drive: its series, its plots, the figures it opens with, one file to be mailed; what the lamps
 // are worth by themselves.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -13,6 +15,7 @@
 #include "config/rig.h"
 #include "tests/paths.h"
 #include "tools/drive_series.h"
+#include "tools/drive_video.h"
 #include "tools/lamp_verdicts.h"
 #include "tools/report.h"
 #include "tools/time_plot.h"
@@ -33,6 +36,35 @@ TEST(Base64, AsInRfc4648) {
                                                                  {"foobar", "Zm9vYmFy"}};
   for (const auto& [bytes, text] : vectors) EXPECT_EQ(base64(bytes), text);
   EXPECT_EQ(base64(std::string("\xff\xfe\0", 3)), "//4A");
+}
+
+// No pipe is left for ffmpeg: a descriptor is one too few.
+TEST(DriveVideo, SaysWhyItDoesNotStart) {
+  const fs::path out = fs::path(testing::TempDir()) / ("phare_drive_video_" + std::to_string(::getpid()));
+  fs::create_directories(out / "frames");
+  std::ofstream(out / "ffmpeg") << "#!/bin/sh\n";
+  fs::permissions(out / "ffmpeg", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", out.c_str(), 1);
+  DriveSeries series;
+  for (std::int64_t frame : {0, 1}) {
+    series.pictures.push_back({frame, 0.1 * static_cast<double>(frame)});
+    std::ofstream(out / ("frames/00000" + std::to_string(frame) + ".png")) << "x";
+  }
+  testing::internal::CaptureStdout();
+  rlimit all{};
+  getrlimit(RLIMIT_NOFILE, &all);
+  const int free = ::dup(0);
+  ::close(free);
+  const rlimit one{static_cast<rlim_t>(free) + 1, all.rlim_max};
+  setrlimit(RLIMIT_NOFILE, &one);
+  EXPECT_FALSE(make_video(out, series, 10, true, [] { return false; }));
+  setrlimit(RLIMIT_NOFILE, &all);
+  setenv("PATH", path.c_str(), 1);
+  const std::string said = testing::internal::GetCapturedStdout();
+  EXPECT_NE(said.find("pipe: Too many open files, so no drive.mp4"), std::string::npos) << said;
+  EXPECT_FALSE(fs::exists(out / "drive.mp4.txt"));
+  fs::remove_all(out);
 }
 
 class DrivePage : public testing::Test {
