@@ -234,7 +234,8 @@ TEST_F(LampInputs, NoResultIsWrittenOverAnInput) {
   const std::string lamp_file = file("lamp.csv", test::content_of(ours("fog.ies")));
   const std::string ies = file("lamp.ies", text), points = file("points.csv", "x_m,y_m,z_m,nx,ny,nz\n10,0,0,0,0,1\n"),
                     angles = file("angles.csv", "h_deg,v_deg\n0,-1\n"), wall = file("wall_25m.svg", text),
-                    ratio = file("ratio.png", text), rig = file("rig.toml", "[rig]\n"), log = file("log.can", "x\n");
+                    ratio = file("ratio.png", text), rig = file("rig.toml", "[rig]\n"), log = file("log.can", "x\n"),
+                    rule = file("rule.toml", test::content_of(rules_dir() + "/r112-passing-b.toml"));
   std::filesystem::create_hard_link(ies, in("hard.ies"));
   std::filesystem::create_symlink(ies, in("soft.ies"));
   std::filesystem::create_directories(in("folder"));
@@ -244,12 +245,14 @@ TEST_F(LampInputs, NoResultIsWrittenOverAnInput) {
     commands.push_back("@lamp convert " + ies + " --to lm63 --out " + out);
     commands.push_back("@lamp convert " + ours("high.ies") + " " + ies + " --out " + out);
     commands.push_back("@lamp table " + ies + " --at " + angles + " --out " + out);
+    commands.push_back("@lamp check " + ies + " --rule r112-passing-b --out " + out);
     commands.push_back("@measure --lamp " + ies + ",x=0,y=0,z=1 --points " + points + " --method reference --out " +
                        out);
   }
   commands.push_back("@lamp table " + ies + " --at " + angles + " --out " + angles);
   commands.push_back("@measure --lamp " + ies + ",x=0,y=0,z=1 --points " + points + " --method reference --out " +
                      points);
+  commands.push_back("@lamp check " + ies + " --rule " + rule + " --out " + rule);
   commands.push_back("@lamp plot " + wall + " --format lm63 --out " + in("."));
   commands.push_back("@lamp compare " + ratio + " " + ies + " --format lm63 --out " + in("."));
   commands.push_back("@record --rig " + rig + " --out " + rig);

@@ -127,7 +127,11 @@ void add_check(CLI::App* lamp, Command& chosen) {
   command->add_flag("--json", options->json, "For machines");
   add_reading(command, options->settings);
   run_with(
-      command, options, chosen, lamp_check, +[](const LampCheckOptions& o) { return Touched{o.files}; });
+      command, options, chosen, lamp_check, +[](const LampCheckOptions& o) {
+        Touched files{o.files, {o.out}};
+        files.inputs.insert(files.inputs.end(), o.rules.begin(), o.rules.end());
+        return files;
+      });
 }
 
 void add_convert(CLI::App* lamp, Command& chosen) {
