@@ -303,6 +303,21 @@ Status check_rig_files(const Rig& rig) {
   return Done{};
 }
 
+std::vector<std::string> files_of(const Rig& rig) {
+  std::vector<std::string> files;
+  const auto add = [&](std::initializer_list<std::filesystem::path> named) {
+    for (const std::filesystem::path& file : named)
+      if (!file.empty()) files.push_back(file.string());
+  };
+  add({rig.file, rig.key_file, rig.scene_file, rig.traffic_file, rig.street_lamps_file, rig.vehicle_file,
+       rig.cockpit_file});
+  for (const DesignConfig& design : rig.designs)
+    for (const LampConfig& lamp : design.lamps)
+      for (const SourceConfig& source : lamp.sources)
+        add({source.file, source.spectrum, source.pixels, source.pixel_map});
+  return files;
+}
+
 namespace {
 
 // The first key of a lamp argument: a comma, a word of letters, digits and '_', and '='. The comma, or npos.

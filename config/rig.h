@@ -176,6 +176,9 @@ inline constexpr std::array<std::string_view, 5> kDynamicsLevelNames{"pose", "ki
 /// first that is not, and where the rig file names it.
 Status check_rig_files(const Rig& rig);
 
+/// Every file that a rig names, and its own; empty names are left out.
+std::vector<std::string> files_of(const Rig& rig);
+
 /// A lamp given on the command line:
 /// FILE,x=1.5,y=0.6,z=0.65,yaw_deg=0,pitch_deg=-0.5729,roll_deg=0[,axis=gamma0|gamma90][,c0_deg=0][,mirror=0|1]
 /// [,lamp_set=1][,emitter=1][,distance_m=25][,scale=1]

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "config/base/input_files.h"
 #include "config/base/log_levels.h"
 #include "config/cockpit.h"
 #include "config/finite_numbers.h"
@@ -164,6 +165,10 @@ Result<Rig> prepare_drive(DriveOptions& options) {
     if (!fs::is_regular_file(*file)) return Error{*file, "no such file"};
     *file = fs::absolute(*file).string();
   }
+  std::vector<std::string> inputs = files_of(*rig);
+  inputs.insert(inputs.end(), {options.drive, options.script, options.log, options.dbc, options.picture.traffic});
+  inputs.insert(inputs.end(), options.car_and_road.begin(), options.car_and_road.end());
+  if (const Status apart = check_inputs(inputs, {options.record}); !apart) return apart.error();
   if (options.headless && options.out.empty()) options.out = "out";
   if (!options.out.empty()) options.out = fs::absolute(options.out).lexically_normal().string();
   settle_out(options);
