@@ -348,6 +348,8 @@ Status save_mounts(const std::filesystem::path& rig_file, const std::filesystem:
   if (to.parent_path() != std::filesystem::absolute(rig_file).lexically_normal().parent_path())
     return Error{to.string(), "the paths in a rig file are relative to its folder: it is saved in " +
                                   std::filesystem::absolute(rig_file).lexically_normal().parent_path().string()};
+  if (std::filesystem::exists(to, ignored) && !std::filesystem::equivalent(to, rig_file, ignored))
+    return Error{to.string(), "is there already; only the rig that is driven is written over"};
   std::ifstream stream(rig_file, std::ios::binary);
   if (!stream) return Error{rig_file.string(), "cannot be read"};
   const std::string text{std::istreambuf_iterator<char>(stream), {}};

@@ -37,8 +37,8 @@ Result<std::string> with_cameras(const std::string& text, const std::filesystem:
                                  std::span<const NamedEye> cameras);
 
 /// Reads the rig file as it is now, and writes it with these lamps, and cameras if they are given, to `out` (empty: to
-/// itself): whole, or not at all. `out` has to lie in the folder of the rig, for its paths. Error: as above, or the
-/// disk's.
+/// itself): whole, or not at all. `out` has to lie in the folder of the rig, for its paths, and is written over only
+/// where it is that rig. Error: as above, or the disk's.
 Status save_mounts(const std::filesystem::path& rig_file, const std::filesystem::path& out,
                    std::span<const SavedMount> mounts, const std::vector<NamedEye>* cameras = nullptr);
 

@@ -219,6 +219,12 @@ TEST_F(RigSave, GoesToItselfOrBesideWholeOrNotAtAll) {
   EXPECT_EQ(text_of_file(folder_ / "rig.toml"), text_of_file(folder_ / "other.toml"));
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2) << "nothing else is left";
 
+  std::ofstream(folder_ / "other.toml") << "another rig";
+  const Status over = save_mounts(folder_ / "rig.toml", folder_ / "other.toml", mounts);
+  ASSERT_FALSE(over);
+  EXPECT_NE(over.error().text().find("other.toml: is there already"), std::string::npos) << over.error().text();
+  EXPECT_EQ(text_of_file(folder_ / "other.toml"), "another rig");
+  EXPECT_TRUE(save_mounts(folder_ / "rig.toml", folder_ / "rig.toml", mounts)) << "itself by its name";
   const Status elsewhere = save_mounts(folder_ / "rig.toml", "/tmp/phare_no_such_folder/rig.toml", mounts);
   ASSERT_FALSE(elsewhere);
   EXPECT_NE(elsewhere.error().text().find("relative to its folder"), std::string::npos);
@@ -228,12 +234,12 @@ TEST_F(RigSave, GoesToItselfOrBesideWholeOrNotAtAll) {
 
 TEST_F(RigSave, WhatTheDiskDoesNotTakeIsSaidAndTheFileStays) {
   const SavedMount mounts[] = {kLeft, kRight};
-  fs::create_directory(folder_ / "other.toml");  // a folder is no file, for root too
-  const Status refused = save_mounts(folder_ / "rig.toml", folder_ / "other.toml", mounts);
+  const std::string long_name(300, 'x');  // longer than a name may be, for root too
+  const Status refused = save_mounts(folder_ / "rig.toml", folder_ / long_name, mounts);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().text().find("other.toml"), std::string::npos) << refused.error().text();
+  EXPECT_NE(refused.error().text().find(long_name), std::string::npos) << refused.error().text();
   EXPECT_EQ(text_of_file(folder_ / "rig.toml"), kRig);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 2) << "nothing half-written is left";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "nothing half-written is left";
 }
 
 /// Cameras of one's own go where the desk is, or where none is behind everything; all else stays, comments too.
