@@ -299,6 +299,7 @@ TEST_F(BadInput, OfTheOtherCommands) {
       {"can: a checksum in nothing", "phare can crc absent.log", "absent.log: "},
       {"replay: no drive", "phare replay absent.pcap", "absent.pcap: "},
       {"replay: not pcap", "phare replay bad.pcap", "bad.pcap: is no drive file"},
+      {"record over a recording", "phare record --out bad.pcap", "bad.pcap: is there already"},
       {"record nowhere", "phare record --out /nonexistent/x.pcap --port-base " + std::to_string(port_base()),
        "/nonexistent/x.pcap"},
   });
