@@ -67,6 +67,7 @@ Result<LampTables> read_tables(const std::vector<LampConfig>& lamps) {
 Result<std::vector<LampConfig>> lamps_of_rig(const MeasureOptions& options) {
   const auto rig = read_rig(options.rig_file);
   if (!rig) return rig.error();
+  if (const Status apart = check_inputs(files_of(*rig), {options.out}); !apart) return apart.error();
   std::set<LampFunction> lit;
   for (std::size_t i = 0; i < kLampFunctionNames.size(); ++i) {
     for (const std::string& beam : options.beams) {

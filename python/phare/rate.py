@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 import sys
 
 from .command_line import leave
@@ -37,6 +38,8 @@ def _adb(options: argparse.Namespace) -> str:
     for flag, value in (("--delay", options.delay), ("--red-range", options.red_range)):
         if value is not None and not (math.isfinite(value) and value >= 0.0):
             raise BadInput(f"{flag} {value:g}: 0 or more")
+    if options.page and os.path.exists(options.page) and os.path.samefile(options.page, options.rig):
+        raise BadInput(f"{options.page}: is the input {options.rig}; it would be overwritten")
     seen_m = Sensors().range_m | ({"red": options.red_range} if options.red_range is not None else {})
     law_named(options.law)  # told before anything is computed
     done = track_tests(

@@ -102,3 +102,12 @@ def test_the_command(words, code, said):
     done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT / "python")
     assert done.returncode == code, done.stderr
     assert said in done.stdout + done.stderr
+
+
+def test_the_page_is_not_written_over_the_rig(tmp_path):
+    rig = tmp_path / "rig.toml"
+    rig.write_text("name = 'mine'\n")
+    command = [sys.executable, "-m", "phare.rate", "adb", "--rig", str(rig), "--page", str(tmp_path / "." / "rig.toml")]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT / "python")
+    assert done.returncode == 2 and "it would be overwritten" in done.stderr, done.stderr
+    assert rig.read_text() == "name = 'mine'\n"
