@@ -90,6 +90,9 @@ TEST(PointsFile, RefusalsSayWhereAndWhy) {
   EXPECT_EQ(reason("x_m,x_m,y_m,z_m,nx,ny,nz\n"), "p.csv:1: column x_m is there twice");
   EXPECT_EQ(reason(head + "1,2,3,0,0,1\n1,2,nan,0,0,1\n"), "p.csv:3: z_m is not a finite number: \"nan\"");
   EXPECT_EQ(reason(head + "1,2,3,0,0,0\n"), "p.csv:2: the normal nx, ny, nz is zero");
+  EXPECT_EQ(reason(head + "1,2,3,0,0,1e-300\n"), "read") << "of any length but 0";
+  EXPECT_EQ(reason(head + "1,-1e8,3,0,0,1\n"), "p.csv:2: the point is not within 1e8 m of the origin");
+  EXPECT_EQ(reason(head + "1e200,2,3,0,0,1\n"), "p.csv:2: the point is not within 1e8 m of the origin");
   EXPECT_EQ(reason(head + "1,2,3,0,0\n"), "p.csv:2: expected 6 columns, got 5");
   EXPECT_EQ(reason(head + "1,2,,0,0,1\n"), "p.csv:2: z_m is not a finite number: \"\"");
   EXPECT_EQ(reason("x_m,y_m,z_m,nx,ny,nz,illuminance_lx\n"),

@@ -217,6 +217,7 @@ TEST_F(BadInput, OfTheOtherCommands) {
   const std::string measure = "phare measure --method reference --out out.csv ";
   const std::string lamp = " --lamp short.ies,x=0,y=0,z=1";
   const std::string import = "phare import --out out.pcap ";
+  write("far.csv", "x_m,y_m,z_m,nx,ny,nz\n1,2,3,0,0,1\n1e200,2,3,0,0,1\n");
   expect_refused({
       {"no command", "phare ", "subcommand"},
       {"unknown command", "phare drvie", "no command \"drvie\"; did you mean \"drive\"?"},
@@ -302,6 +303,8 @@ TEST_F(BadInput, OfTheOtherCommands) {
       {"can: a checksum in nothing", "phare can crc absent.log", "absent.log: "},
       {"replay: no drive", "phare replay absent.pcap", "absent.pcap: "},
       {"replay: not pcap", "phare replay bad.pcap", "bad.pcap: is no drive file"},
+      {"measure: a point far off", measure + "--points far.csv --rig rig.toml",
+       "far.csv:3: the point is not within 1e8 m"},
       {"record over a recording", "phare record --out bad.pcap", "bad.pcap: is there already"},
       {"record nowhere", "phare record --out /nonexistent/x.pcap --port-base " + std::to_string(port_base()),
        "/nonexistent/x.pcap"},

@@ -127,16 +127,19 @@ std::string csv_field(std::string text) {
 }  // namespace
 
 Result<PointsFile> read_points(const std::filesystem::path& path) {
+  constexpr double kFarthest_m = 1e8;  // as for the vertices of a scene: beyond it a file is wrong
   PointsFile points;
   const std::array<const char*, 6> columns{"x_m", "y_m", "z_m", "nx", "ny", "nz"};
   auto header = read_rows<6>(
       path, columns, {"illuminance_lx", "hidden_by_"},
       [&](const std::string& line, std::size_t line_number, const std::array<double, 6>& v) -> Status {
         PointRow row{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, line, line_number};
+        const std::string place = input_name(path) + ":" + std::to_string(line_number);
+        if (!(glm::length(row.position_m) < kFarthest_m))
+          return Error{place, "the point is not within 1e8 m of the origin"};
         // Scaled first, so that no length over- or underflows on the way.
         const double largest = std::max({std::abs(v[3]), std::abs(v[4]), std::abs(v[5])});
-        if (!(largest > 0.0))
-          return Error{input_name(path) + ":" + std::to_string(line_number), "the normal nx, ny, nz is zero"};
+        if (!(largest > 0.0)) return Error{place, "the normal nx, ny, nz is zero"};
         row.normal = glm::normalize(row.normal / largest);
         points.rows.push_back(std::move(row));
         return Done{};
