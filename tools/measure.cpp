@@ -373,21 +373,23 @@ void add_measure(CLI::App& app, Command& chosen) {
       "does; of street\nlamps in that of the one which would be the strongest.\n"
       "Example:\n  phare measure --lamp low_beam.ies,x=1.5,y=0.6,z=0.65,pitch_deg=-0.573 --points points.csv --out "
       "points_lx.csv\n  phare measure --table road_table/a_road_flat_low.csv --method reference");
-  command->add_option("--rig", options->rig_file, "Rig file whose lamps are measured; the car stands at the origin");
-  command
-      ->add_option("--lamp", options->lamps,
-                   "FILE,x=1.5,y=0.6,z=0.65[,KEY=VALUE…]; repeat for more. Position in m; yaw_deg (left positive), "
-                   "pitch_deg (up positive), roll_deg [0]; scale [1]; mirror=1 turns left and right round; for type C "
-                   "and EULUMDAT axis=gamma0|gamma90 and c0_deg [0], where the file's plane C 0 lies; lamp_set "
-                   "(EULUMDAT) and emitter (TM-33) count from 1; distance_m for a CSV in lx that states none. A file "
-                   "name may hold commas; one that holds \",word=\" stands in double quotes, a quote in it doubled")
-      ->allow_extra_args(false);
-  command->add_option("--design", options->design, "Design of the rig [its first]");
+  auto* rig = command->add_option("--rig", options->rig_file,
+                                  "Rig file whose lamps are measured; the car stands at the origin");
+  auto* lamp = command->add_option(
+      "--lamp", options->lamps,
+      "FILE,x=1.5,y=0.6,z=0.65[,KEY=VALUE…]; repeat for more. Position in m; yaw_deg (left positive), "
+      "pitch_deg (up positive), roll_deg [0]; scale [1]; mirror=1 turns left and right round; for type C "
+      "and EULUMDAT axis=gamma0|gamma90 and c0_deg [0], where the file's plane C 0 lies; lamp_set "
+      "(EULUMDAT) and emitter (TM-33) count from 1; distance_m for a CSV in lx that states none. A file "
+      "name may hold commas; one that holds \",word=\" stands in double quotes, a quote in it doubled");
+  lamp->allow_extra_args(false)->excludes(rig);
+  command->add_option("--design", options->design, "Design of the rig [its first]")->needs(rig);
   command->add_option("--beams", options->beams, "Lit functions of the rig, joined by commas")
+      ->needs(rig)
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>(kLampFunctionNames.begin(), kLampFunctionNames.end())))
       ->capture_default_str();
-  command->add_option(
+  auto* street = command->add_option(
       "--street-lamps", options->street_lamps,
       "Instead of a car's lamps: a file of street lamps (docs/street-lamps.md), in float64; lamp 1 is the "
       "strongest of them at each point");
@@ -396,31 +398,34 @@ void add_measure(CLI::App& app, Command& chosen) {
       "glTF whose shadows count, by ray. With --lamp or --rig: in a car's light, and the object that "
       "shades is named; without: in that of its own lamps, which are measured, and of --street-lamps, likewise");
   auto* points = command->add_option("--points", options->points, "Points file; \"-\" is standard input");
-  command->add_option("--out", options->out, "File to write");
-  command
-      ->add_option("--table", options->table,
-                   "Instead of points: a table of a photometry reference set (manifest.json beside it), held against "
-                   "every photometry file it knows; exit 1 when one is further off than --max-error")
-      ->excludes(points)
-      ->excludes(scene);
+  auto* out = command->add_option("--out", options->out, "File to write");
+  auto* table = command->add_option(
+      "--table", options->table,
+      "Instead of points: a table of a photometry reference set (manifest.json beside it), held against "
+      "every photometry file it knows; exit 1 when one is further off than --max-error");
+  for (auto* other : {rig, lamp, street, scene, points, out}) table->excludes(other);
   command
       ->add_option("--max-error", options->max_error,
                    "With --table: relative, where more than 0.01 lx is expected [fragment: 1e-5; reference: 1e-9]")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->needs(table);
   command
       ->add_option("--method", options->method,
                    "fragment: the shader that draws the frame; reference: float64, here on the processor")
       ->check(CLI::IsMember({"fragment", "reference"}))
       ->capture_default_str();
-  command
-      ->add_option("--beam-image", options->beam_image,
-                   "With --method fragment: how beam images are stored and looked up, from the 1999 paper's texture to "
-                   "the table's own nodes")
-      ->check(CLI::IsMember(level_names()))
-      ->capture_default_str();
+  auto* image = command->add_option(
+      "--beam-image", options->beam_image,
+      "With --method fragment: how beam images are stored and looked up, from the 1999 paper's texture to "
+      "the table's own nodes");
+  image->check(CLI::IsMember(level_names()))->capture_default_str();
   command->add_flag("--validation", options->validation, "Vulkan validation with synchronization validation");
   command->add_flag("--json", options->json, "Print a summary as JSON");
-  command->callback([options, &chosen] { chosen = [options] { return measure(*options); }; });
+  command->callback([options, image, &chosen] {
+    if (image->count() > 0 && options->method == "reference")
+      throw CLI::ValidationError("--beam-image " + options->beam_image, "goes with --method fragment");
+    chosen = [options] { return measure(*options); };
+  });
 }
 
 }  // namespace phare
