@@ -216,7 +216,7 @@ TEST_F(BadInput, OfTheOtherCommands) {
   write("bare.gltf", R"({"asset": {"version": "2.0"}})");
   const std::string measure = "phare measure --method reference --out out.csv ";
   const std::string lamp = " --lamp short.ies,x=0,y=0,z=1";
-  const std::string import = "phare import --out out.pcap ";
+  const std::string import = "phare import --out out.pcap ", cost = "phare cost --ladder poses --quick --out cost ";
   write("far.csv", "x_m,y_m,z_m,nx,ny,nz\n1,2,3,0,0,1\n1e200,2,3,0,0,1\n");
   expect_refused({
       {"no command", "phare ", "subcommand"},
@@ -316,6 +316,9 @@ TEST_F(BadInput, OfTheOtherCommands) {
        "--beam-image float32-native-nodes: goes with"},
       {"measure: a point far off", measure + "--points far.csv --rig rig.toml",
        "far.csv:3: the point is not within 1e8 m"},
+      {"cost: no rig", cost + "--rig absent.toml", "absent.toml: no such file"},
+      {"cost: no vehicle", cost + "--vehicle absent.toml", "absent.toml: no such file"},
+      {"cost: against no run", cost + "--against bad.log", "bad.log: "},
       {"record over a recording", "phare record --out bad.pcap", "bad.pcap: is there already"},
       {"record nowhere", "phare record --out /nonexistent/x.pcap --port-base " + std::to_string(port_base()),
        "/nonexistent/x.pcap"},

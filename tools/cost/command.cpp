@@ -11,10 +11,12 @@
 #include "config/base/commit.h"
 #include "config/base/content_hash.h"
 #include "config/base/input_files.h"
-#include "config/formats/gltf_uri.h"
 #include "config/base/paths.h"
 #include "config/base/shell_word.h"
 #include "config/base/whole_file.h"
+#include "config/formats/gltf_uri.h"
+#include "config/rig.h"
+#include "config/vehicle.h"
 #include "tools/commands.h"
 #include "tools/cost/ladder.h"
 #include "tools/cost/measure_ladders.h"
@@ -71,9 +73,6 @@ class CostRun {
   explicit CostRun(const CostOptions& options) : options_(options) {}
 
   int run() {
-    std::error_code failed;
-    std::filesystem::create_directories(options_.out, failed);
-    if (failed) return bad_input({"--out " + options_.out, failed.message()});
     Plan plan{.quick = options_.quick,
               .scene_file = options_.scene,
               .lamp_file = options_.lamp,
@@ -85,7 +84,10 @@ class CostRun {
     if (std::sscanf(options_.size.c_str(), "%dx%d%n", &plan.width_px, &plan.height_px, &end) != 2 ||
         static_cast<std::size_t>(end) != options_.size.size())
       return bad_input({"--size " + options_.size, "is not WIDTHxHEIGHT in pixels"});
-    if (const Status read = read_run_before(); !read) return bad_input(read.error());
+    if (const Status read = read_named(); !read) return bad_input(read.error());
+    std::error_code failed;
+    std::filesystem::create_directories(options_.out, failed);
+    if (failed) return bad_input({"--out " + options_.out, failed.message()});
     if (const Status measured = measure(plan); !measured) return bad_input(measured.error());
     for (Ladder& ladder : ladders_) mark_efficient(ladder);
     if (const Status written = write(); !written) return bad_input(written.error());
@@ -94,8 +96,10 @@ class CostRun {
   }
 
  private:
-  /// Before anything is measured: a file that is none is told at once.
-  Status read_run_before() {
+  /// Before anything is measured: a file that is none is told at once, whichever ladders are wanted.
+  Status read_named() {
+    if (const auto rig = read_rig(options_.rig); !rig) return rig.error();
+    if (const auto vehicle = read_vehicle(options_.vehicle); !vehicle) return vehicle.error();
     if (options_.against.empty()) return Done{};
     constexpr std::uintmax_t kMostBytes = 64u << 20;
     const auto text = read_input_bytes(options_.against, kMostBytes);
