@@ -136,7 +136,9 @@ Result<CandumpLog> parse_candump(std::string_view text, const std::string& name)
     if (scan.at_end() || scan.rest().front() == '#') continue;
     Result<CandumpEntry> entry = parse_candump_line(line);
     if (!entry) {
-      if (log.problems.size() < CandumpLog::kProblemsKept) log.problems.push_back({line_number, entry.error().reason});
+      const std::string cut = end == std::string_view::npos ? ", and the log ends within the line" : "";
+      if (log.problems.size() < CandumpLog::kProblemsKept)
+        log.problems.push_back({line_number, entry.error().reason + cut});
       ++log.broken_lines;
       continue;
     }

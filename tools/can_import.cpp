@@ -202,6 +202,10 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
   if (!(end_s > begin_s) && !pose) return Error{options.can_log.string(), "all its frames have one stamp"};
   if (!(end_s > begin_s)) return Error{options.pose.string(), "shares no time with " + options.can_log.string()};
   counts.broken_lines = log->broken_lines;
+  if (log->broken_lines > 0)
+    drive.notes.push_back(options.can_log.string() + ":" + std::to_string(log->problems.front().line) + ": " +
+                          log->problems.front().reason + "; " + std::to_string(log->broken_lines) +
+                          (log->broken_lines == 1 ? " broken line is" : " broken lines are") + " left out");
   counts.backward_stamps = log->backward_stamps;
   counts.pose_rows = pose ? pose->t_s.size() : 0;
   const std::vector<CanId> by_cockpit = ids_of(options.cockpit, *dbc);

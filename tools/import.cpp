@@ -101,12 +101,12 @@ int import_drive(ImportArguments& arguments) {
     const ImportCounts& c = drive->counts;
     std::printf(
         "%s: %.2f s, %.1f m, %llu messages from %llu CAN frames (%llu used, %llu of other ids, %llu undecodable, "
-        "%llu outside) and %llu poses\n",
+        "%llu outside), %llu broken lines and %llu poses\n",
         arguments.out.c_str(), drive->duration_s, drive->distance_m,
         static_cast<unsigned long long>(drive->datagrams.size()), static_cast<unsigned long long>(c.frames),
         static_cast<unsigned long long>(c.used), static_cast<unsigned long long>(c.other_ids),
         static_cast<unsigned long long>(c.undecodable), static_cast<unsigned long long>(c.outside),
-        static_cast<unsigned long long>(c.pose_rows));
+        static_cast<unsigned long long>(c.broken_lines), static_cast<unsigned long long>(c.pose_rows));
   }
   return kExitDone;
 }

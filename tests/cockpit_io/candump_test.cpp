@@ -77,6 +77,8 @@ TEST(Candump, KeepsTheRestOfABrokenLog) {
   ASSERT_EQ(log->problems.size(), 2u);
   EXPECT_EQ(log->problems[0].line, 4);
   EXPECT_EQ(log->problems[1].line, 6);
+  EXPECT_EQ(log->problems[0].reason.find("ends within"), std::string::npos);
+  EXPECT_NE(log->problems[1].reason.find("ends within the line"), std::string::npos) << log->problems[1].reason;
 }
 
 TEST(Candump, ALogWithoutAFrameIsAnError) {

@@ -269,6 +269,20 @@ TEST_F(MadeDrive, WithoutAPoseTheCarIsDrivenByItsSteering) {
     ASSERT_EQ(encode(drive->datagrams[i]), encode(again->datagrams[i]));
 }
 
+TEST_F(MadeDrive, BrokenLinesAreTold) {
+  const auto whole = import_can_drive(options_);
+  ASSERT_TRUE(whole) << whole.error().text();
+  EXPECT_EQ(whole->notes.front().find("broken"), std::string::npos) << whole->notes.front();
+  std::ofstream(options_.can_log, std::ios::app) << "nonsense\n(1010.1) can0 200#100";
+  const auto drive = import_can_drive(options_);
+  ASSERT_TRUE(drive) << drive.error().text();
+  EXPECT_EQ(drive->counts.broken_lines, 2u);
+  ASSERT_EQ(drive->notes.size(), whole->notes.size() + 1);
+  EXPECT_TRUE(std::ranges::any_of(drive->notes, [](const std::string& note) {
+    return note.find("car.log:3004: ") != std::string::npos && note.ends_with("; 2 broken lines are left out");
+  }));
+}
+
 TEST_F(MadeDrive, AgainstAPoseTheDriftIsTold) {
   options_.pose = folder_ / "pose.csv";
   const auto write_pose = [&](double radius_m) {
