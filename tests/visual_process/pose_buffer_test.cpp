@@ -83,8 +83,14 @@ TEST(PoseBuffer, TimeToShowStandsWithTheCarAndDoesNotGoBack) {
   EXPECT_EQ(poses.time_to_show(at_ms(1210), at_ms(1200)), at_ms(1204));
   poses.push(at_ms(300), VehicleState{});  // a seek
   EXPECT_EQ(poses.time_to_show(at_ms(300), at_ms(1204)), at_ms(300));
-  poses.push(at_ms(200), VehicleState{});  // one by little, in a pause: the same time comes again and again
+  for (int i = 0; i < 9; ++i) poses.push(at_ms(300), VehicleState{});  // it stands, and is heard of late
+  poses.push(at_ms(304), VehicleState{});
+  for (int i = 0; i < 9; ++i) poses.push(at_ms(304), VehicleState{});
+  EXPECT_EQ(poses.time_to_show(at_ms(304), at_ms(390)), at_ms(390));
+  poses.push(at_ms(200), VehicleState{});  // begun anew a little behind, and told twice
   poses.push(at_ms(200), VehicleState{});
+  EXPECT_EQ(poses.time_to_show(at_ms(200), at_ms(300)), at_ms(300));
+  for (int i = 0; i < 2; ++i) poses.push(at_ms(200), VehicleState{});  // in a pause it comes again and again: a seek
   EXPECT_EQ(poses.time_to_show(at_ms(200), at_ms(300)), at_ms(200));
 }
 

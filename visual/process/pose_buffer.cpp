@@ -52,9 +52,14 @@ VehicleState extrapolate(const VehicleState& state, double seconds) {
 }
 
 void PoseBuffer::push(SimTime time, const VehicleState& state) {
-  standing_ = count_ > 0 && time == ring_[newest_].time;
-  if (count_ > 0 && time <= ring_[newest_].time) {
-    const bool same = standing_;
+  if (count_ == 0 || time > ring_[newest_].time) {
+    back_again_.reset();
+  } else {
+    const bool same = time == ring_[newest_].time;
+    if (!same)
+      back_again_ = 0;
+    else if (back_again_)
+      ++*back_again_;
     count_ = same ? count_ - 1 : 0;
     if (same) newest_ = (newest_ + ring_.size() - 1) % ring_.size();  // replaced below
   }
@@ -67,7 +72,8 @@ SimTime PoseBuffer::time_to_show(SimTime wanted, std::optional<SimTime> shown) c
   constexpr auto kCoast_ns = static_cast<std::int64_t>(kCoast_s * 1e9);
   if (count_ == 0) return wanted;
   const SimTime time{std::min(wanted.ns, ring_[newest_].time.ns + kCoast_ns)};
-  const bool a_little_behind = shown && time < *shown && shown->ns - time.ns <= kCoast_ns && !standing_;
+  const bool stands = back_again_ && *back_again_ >= kStands;
+  const bool a_little_behind = shown && time < *shown && shown->ns - time.ns <= kCoast_ns && !stands;
   return a_little_behind ? *shown : time;
 }
 

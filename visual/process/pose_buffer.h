@@ -44,7 +44,10 @@ class PoseBuffer {
   std::array<Entry, 16> ring_{};
   std::size_t count_ = 0;   // of valid entries
   std::size_t newest_ = 0;  // index
-  bool standing_ = false;   // the newest came again with the same time
+  /// It went back in time to the newest, which has come so many times again since: from kStands on somebody has sought
+  /// in a pause. Twice one that begins anew may say where it is.
+  std::optional<int> back_again_;
+  static constexpr int kStands = 3;
 };
 
 /// Simulated time of now in real time, from the stamps of the messages that came: simulation runs at the speed of the
