@@ -147,7 +147,7 @@ int explain_drive(DriveOptions& options) {
     while (!(end = child->ended())) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     exit_code = end->signal != 0 ? kExitCheckFailed : end->exit_code;
     if (end->signal != 0)
-      std::fprintf(stderr, "phare: phare-visual, which explains, ended by %s\n", end->text().c_str());
+      std::fprintf(stderr, "phare: phare-visual, which explains, ended with %s\n", end->text().c_str());
   }
   if (exit_code == kExitDone && of_drive && !options.drive_told.empty()) spdlog::warn(options.drive_told);
   return exit_code;

@@ -4,9 +4,13 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <sstream>
+#include <thread>
 
 #include "tests/paths.h"
 #include "tests/process/drive_run.h"
@@ -217,6 +221,52 @@ TEST_F(Control, ReflectedLightIsInNoLampsColumn) {
 }
 
 // Each instrument that is off is no pass and no view; those that draw over the picture share the overlay's pass.
+// Somebody who seeks back, by much while it drives and by little in a pause, is shown and kept what is there.
+TEST_F(Control, ASeekBackIsFollowedAndKept) {
+  struct Row {
+    double time_s = 0.0, x_m = 0.0;
+    bool kept = false;
+  };
+  const auto rows = [&] {
+    std::vector<Row> all;
+    std::ifstream file(folder_ / "out" / "drive.csv");
+    std::string line;
+    for (std::getline(file, line); std::getline(file, line) && !file.eof();) {
+      std::vector<std::string> cells;
+      std::istringstream words(line);
+      for (std::string cell; std::getline(words, cell, ',');) cells.push_back(cell);
+      if (cells.size() > 14) all.push_back({std::stod(cells[1]), std::stod(cells[2]), cells[14] == "1"});
+    }
+    return all;
+  };
+  DriveRun run(folder_ / "out", folder_.path(), {}, /*lockstep=*/false);
+  const auto comes = [&](const std::function<bool(const std::vector<Row>&)>& at_last) {
+    for (const auto until = std::chrono::steady_clock::now() + kPatience;
+         run.running() && std::chrono::steady_clock::now() < until;
+         std::this_thread::sleep_for(std::chrono::milliseconds(50)))
+      if (at_last(rows())) return true;
+    return false;
+  };
+  ASSERT_TRUE(comes([](const auto& all) { return !all.empty() && all.back().time_s > 3.0; }));
+  ASSERT_EQ(control("seek 1").code, 0);
+  std::size_t back = 0;
+  ASSERT_TRUE(comes([&](const auto& all) {
+    for (std::size_t i = 1; i < all.size(); ++i)
+      if (all[i].time_s < all[i - 1].time_s - 1.0) back = i;
+    return back > 0 && all.back().time_s > all[back].time_s + 1.0;
+  }));
+  const std::vector<Row> since = rows();
+  EXPECT_GE(std::ranges::count(since.begin() + static_cast<std::ptrdiff_t>(back), since.end(), true, &Row::kept), 3)
+      << "of ten a second";
+  ASSERT_EQ(control("pause").code, 0);
+  ASSERT_EQ(control("seek 4.9").code, 0);
+  ASSERT_TRUE(comes([](const auto& all) { return std::abs(all.back().time_s - 4.9) < 0.03; }));
+  ASSERT_EQ(control("seek 4.8").code, 0);
+  ASSERT_TRUE(comes([](const auto& all) { return std::abs(all.back().time_s - 4.8) < 0.03; }));
+  ASSERT_EQ(control("quit").code, 0);
+  EXPECT_EQ(run.wait(), 0);
+}
+
 TEST_F(Control, InstrumentsThatAreOffCostNoPass) {
   const auto visual = [&](const char* out, const std::vector<std::string>& settings) {
     std::vector<std::string> arguments{"--frames", "4"};

@@ -136,7 +136,8 @@ TEST(ExplainCost, SaysThatItsProgramWasKilled) {
               "kill -SEGV $(cat /proc/$P/task/$P/children) 2>/dev/null && break; sleep 0.05; done; "
               "wait $P");
   EXPECT_EQ(told.code, kExitCheckFailed) << told.text;
-  EXPECT_NE(told.text.find("phare: phare-visual, which explains, ended by SIGSEGV\n"), std::string::npos) << told.text;
+  EXPECT_NE(told.text.find("phare: phare-visual, which explains, ended with SIGSEGV\n"), std::string::npos)
+      << told.text;
 }
 
 // Who ignores the ends of his children hands that down: ours are heard of all the same.

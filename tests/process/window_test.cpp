@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <sstream>
 #include <thread>
 
@@ -238,6 +239,24 @@ INSTANTIATE_TEST_SUITE_P(Each, WindowFaults,
                            std::replace(name.begin(), name.end(), '-', '_');
                            return name;
                          });
+
+// With what is drawn over the picture there is more to be taken down when the device is lost.
+TEST_F(WindowFaultTest, ALostDeviceIsSaidAndAskedForAgain) {
+  const GpuFault fault("lost-device:60", folder_ / "told");
+  start({"--set", "lines=on"});
+  ASSERT_TRUE(wait_until([&] { return fault.happened(); }));
+  const auto rows = [&] {
+    std::ifstream file(folder_ / "out" / "drive.csv");
+    return std::count(std::istreambuf_iterator<char>(file), {}, '\n');
+  };
+  const auto then = rows();
+  ASSERT_TRUE(wait_until([&] { return rows() > then + 20; })) << "one begun anew draws";
+  display_->keys("key Escape key Escape");
+  EXPECT_EQ(end(), 0);
+  const auto report = report_of(folder_ / "out");
+  ASSERT_EQ(report["restarts"].size(), 1u);
+  EXPECT_EQ(report["restarts"][0]["because"], "exit 1") << "it leaves by itself, and does not crash";
+}
 
 /// What a window manager does to a window that a person minimises, and to one that is wanted again: ICCCM 4.1.3.1.
 /// False: there is no libX11.

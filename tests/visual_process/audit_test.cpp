@@ -76,6 +76,18 @@ class Audit : public testing::Test {
   VehicleState pose_;
 };
 
+TEST_F(Audit, NamesNoLampOfADesignThatShinesNoMore) {
+  const auto said = [&](const AuditMoment& moment) {
+    AuditStats stats;
+    const auto failure = stats.add(*lamps_, pose_, samples(1.1), moment);
+    return failure ? failure->text() : "";
+  };
+  AuditMoment moment = this->moment(audit_bound(ImageLevel::kFloatNodes, Method::kFragment));
+  EXPECT_NE(said(moment).find(" lx, most from "), std::string::npos) << said(moment);
+  moment.by_lamp = {};
+  EXPECT_NE(said(moment).find(" lx; off by "), std::string::npos) << said(moment);
+}
+
 TEST_F(Audit, PassesWhatIsWithinTheLevelsBound) {
   AuditStats stats;
   // Half the bound of each level; float32's own rounding.

@@ -95,10 +95,10 @@ std::optional<AuditBound> audit_bound(ImageLevel image, Method method, std::opti
 
 std::string AuditFailure::text() const {
   return fmt::format(
-      "frame {} ({:.2f} s), pixel ({}, {}) at ({:.2f}, {:.2f}, {:.2f}) m: {:.6g} lx, float64 {:.6g} lx, most from {}; "
+      "frame {} ({:.2f} s), pixel ({}, {}) at ({:.2f}, {:.2f}, {:.2f}) m: {:.6g} lx, float64 {:.6g} lx{}; "
       "off by {:.3g} lx, {} allows {:.3g} lx",
       frame, time_s, x_px, y_px, point.position_m.x, point.position_m.y, point.position_m.z, value_lx, float64_lx,
-      lamp.empty() ? "no lamp" : lamp, std::abs(value_lx - float64_lx), level, bound_lx);
+      lamp.empty() ? "" : ", most from " + lamp, std::abs(value_lx - float64_lx), level, bound_lx);
 }
 
 nlohmann::json AuditFailure::json() const {

@@ -61,7 +61,8 @@ struct AuditMoment {
   std::optional<AuditBound> bound{};
   glm::dvec3 eye_m{0.0};         ///< of the picture
   const Scene* scene = nullptr;  ///< that it shows; nothing: the places of samples are taken for exact
-  /// Lux at a point lamp by lamp as the picture has them, in the order of lights_at(); asked for a failure only.
+  /// Lux at a point lamp by lamp as the picture has them, in the order of lights_at(); asked for a failure only. None:
+  /// another design shines by now, and which lamp is off is not told.
   std::function<std::vector<double>(const MeasurePoint&)> by_lamp{};
 };
 

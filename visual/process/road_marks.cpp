@@ -50,7 +50,7 @@ OverlayColour colour_of(double lx) {
 
 /// Of "100 m" in a picture of 1280 × 720.
 constexpr double kLabelWidth_01 = 0.04, kLabelHeight_01 = 0.025;  // of most
-constexpr double kLetterWidth_01 = 0.0065;
+constexpr double kLetterWidth_01 = 0.0065;                        // so that six letters are as wide; chosen
 
 /// Where a line of the eye's view cuts its near side; clip space with w the distance ahead.
 struct Seen {
