@@ -91,7 +91,21 @@ struct ShadowDepths {
   gpu::DeviceBuffer texels;
   vk::raii::BufferView view{nullptr};
   gpu::DescriptorSets sets{};
-  vk::DescriptorSet set{};
+  vk::DescriptorSet set{};  ///< of the texels that are read
+
+  /// In place of `texels` where the device is the processor: what is drawn anew goes where no frame that is still on
+  /// its way reads.
+  struct InTurn {
+    gpu::HostBuffer texels;
+    vk::raii::BufferView view{nullptr};
+    vk::DescriptorSet set{};
+  };
+  std::vector<InTurn> in_turn{};
+  std::size_t turn = 0;  ///< which of them is read
+
+  vk::DeviceSize bytes() const {
+    return texels.bytes + in_turn.size() * (in_turn.empty() ? 0 : in_turn[0].texels.bytes);
+  }
 
   /// What the texels hold: of each map what it was drawn from.
   struct Held {

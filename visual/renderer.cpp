@@ -28,7 +28,8 @@ gpu::DeviceOptions device_options(const RendererOptions& options) {
   gpu::DeviceOptions result{.validation = options.validation,
                             .device_name = options.device_name,
                             .float64 = options.float64,
-                            .multi_draw = options.multi_draw};
+                            .multi_draw = options.multi_draw,
+                            .processor_depths = options.processor_depths};
   if (options.window != nullptr) {
     std::uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);

@@ -47,6 +47,7 @@ struct RendererOptions {
   std::string device_name{};  ///< pick a device whose name contains this; empty: the first discrete GPU, else any
   bool float64 = true;        ///< false: as if the device had no shaderFloat64
   bool multi_draw = true;     ///< false: as if it had no VK_EXT_multi_draw
+  bool processor_depths = true;  ///< false: one that is the processor draws shadow maps itself, as others do
   /// 1: a frame is waited for. 2: one is recorded while the device draws the one before, and a picture is up to a frame
   /// older when it is seen. One that takes a new pipeline is waited for all the same.
   std::size_t frames_in_flight = 1;

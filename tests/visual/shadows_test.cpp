@@ -8,8 +8,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "config/base/paths.h"
 #include "tests/csv_table.h"
 #include "tests/paths.h"
 #include "tests/visual/shape.h"
@@ -42,6 +46,29 @@ class Shadows : public SharedRenderer {
     if (renderer == nullptr) return;
     even_ = cut_off_table(PhotometricType::kA, GammaAxis::kGamma0);
     renderer->set_beam(0, image_of(even_));
+  }
+  static void TearDownTestSuite() {
+    device_draws().reset();
+    SharedRenderer::TearDownTestSuite();
+  }
+
+  /// Does it with a renderer as it is and with one whose device draws the maps though it is the processor; of another
+  /// device both are one.
+  void with_both(const std::function<void(bool processor_draws)>& act) {
+    act(true);
+    if (HasFatalFailure()) return;
+    Renderer* const usual = std::exchange(renderer, nullptr);
+    if (!device_draws()) {
+      Result<Renderer> made =
+          Renderer::create({.width_px = 320, .height_px = 180, .validation = true, .processor_depths = false});
+      ASSERT_TRUE(made) << made.error().text();
+      device_draws() = std::make_unique<Renderer>(std::move(*made));
+    }
+    renderer = device_draws().get();
+    renderer->set_beam(0, image_of(even_));
+    act(false);
+    EXPECT_EQ(renderer->validation_messages(), 0u);
+    renderer = usual;
   }
 
   /// Points where the map's answer (more than half lit) is not that of the table, of those that `counts` names.
@@ -88,6 +115,12 @@ class Shadows : public SharedRenderer {
   }
 
   IntensityTable even_;
+
+ private:
+  static std::unique_ptr<Renderer>& device_draws() {
+    static std::unique_ptr<Renderer> renderer;
+    return renderer;
+  }
 };
 
 TEST_F(Shadows, OfBoxesFallWhereTheReferenceHasThem) {
@@ -98,7 +131,6 @@ TEST_F(Shadows, OfBoxesFallWhereTheReferenceHasThem) {
   const auto corner = [](const nlohmann::json& at) { return glm::dvec3(at[0], at[1], at[2]); };
   for (const nlohmann::json& box : manifest["occluder_boxes"]) shape.box(corner(box["min"]), corner(box["max"]));
   shape.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
-  ASSERT_TRUE(renderer->load_scene(shape.scene()).ok());
   const test::CsvTable table = test::read_csv_table(data / "d_shadow.csv");
   std::vector<MeasurePoint> points;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
@@ -106,17 +138,24 @@ TEST_F(Shadows, OfBoxesFallWhereTheReferenceHasThem) {
                       {table.number(i, "nx"), table.number(i, "ny"), table.number(i, "nz")}});
   const std::vector<PlacedLamp> lamps = mounted(manifest, "low");
   const auto clear = [&](std::size_t i) { return table.number(i, "edge_clearance_m") >= 0.01; };
-  EXPECT_EQ(wrong_rays(table, shape.scene(), lamps, points, clear), 0u);
-  for (std::size_t level = 1; level < kShadowNames.size(); ++level)
-    for (const double clear_m : {0.05, 0.02, 0.01, 0.002}) {
-      const auto counts = [&](std::size_t i) { return table.number(i, "edge_clearance_m") >= clear_m; };
-      std::printf("%s, edge clearance %g m, ", std::string(kShadowNames[level]).c_str(), clear_m);
-      const std::size_t bad = wrong(table, lamps, points, level, counts);
-      // A ray's place is good to micrometres. Of lens more than half of an opening tells as its middle does.
-      if (clear_m == 0.05 || level == kRayShadows) {
-        EXPECT_EQ(bad, 0u) << "level " << level << ", " << clear_m << " m";
-      }
+  with_both([&](bool processor_draws) {
+    ASSERT_TRUE(renderer->load_scene(shape.scene()).ok());
+    if (processor_draws) {
+      EXPECT_EQ(wrong_rays(table, shape.scene(), lamps, points, clear), 0u);
     }
+    const std::size_t levels = processor_draws ? kShadowNames.size() : kRayShadows;
+    for (std::size_t level = 1; level < levels; ++level)
+      for (const double clear_m : {0.05, 0.02, 0.01, 0.002}) {
+        const auto counts = [&](std::size_t i) { return table.number(i, "edge_clearance_m") >= clear_m; };
+        std::printf("%s by the %s, edge clearance %g m, ", std::string(kShadowNames[level]).c_str(),
+                    processor_draws ? "processor" : "device", clear_m);
+        const std::size_t bad = wrong(table, lamps, points, level, counts);
+        // A ray's place is good to micrometres. Of lens more than half of an opening tells as its middle does.
+        if (clear_m == 0.05 || level == kRayShadows) {
+          EXPECT_EQ(bad, 0u) << "level " << level << ", " << clear_m << " m";
+        }
+      }
+  });
 }
 
 TEST_F(Shadows, OfAHillFallWhereTheReferenceHasThem) {
@@ -194,49 +233,54 @@ TEST_F(Shadows, HaveNoDashesOfIsoluxLinesAtTheirEdges) {
 
 // What is not called for costs nothing: no pass, no image, no draw.
 TEST_F(Shadows, AreMadeWhereSomethingStandsInTheLightAndNowhereElse) {
-  Shape road;
-  road.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
-  ASSERT_TRUE(renderer->load_scene(road.scene()).ok());
-  FrameInput input = view_of_the_road();
-  const FrameResult flat = renderer->draw(input);
-  EXPECT_EQ(flat.effects.level(Effect::kShadows), 0u);
-  EXPECT_EQ(flat.pass_count, 1u);
+  with_both([&](bool processor_draws) {
+    Shape road;
+    road.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
+    ASSERT_TRUE(renderer->load_scene(road.scene()).ok());
+    FrameInput input = view_of_the_road();
+    const FrameResult flat = renderer->draw(input);
+    EXPECT_EQ(flat.effects.level(Effect::kShadows), 0u);
+    EXPECT_EQ(flat.pass_count, 1u);
 
-  Shape with_box = road;
-  with_box.box({20, -1, 0}, {21, 1, 2});
-  ASSERT_TRUE(renderer->load_scene(with_box.scene()).ok());
-  const FrameResult shadowed = renderer->draw(input);
-  EXPECT_EQ(kShadowNames[shadowed.effects.level(Effect::kShadows)], "soft");
-  EXPECT_EQ(shadowed.pass_count, 2u);
-  EXPECT_GT(shadowed.image_bytes, flat.image_bytes);
-  constexpr auto kShadows = static_cast<std::size_t>(Effect::kShadows);
-  const auto maps = std::ranges::count(shadowed.passes, std::string("shadows"), &PassTime::name);
-  EXPECT_EQ(shadowed.effect_costs[kShadows].passes, static_cast<std::uint32_t>(maps));
-  EXPECT_EQ(shadowed.other_cost.passes, 1u) << "the lamp pass";
-  // The depths in an image, and once more in the buffer that is read.
-  EXPECT_GE(shadowed.effect_costs[kShadows].bytes, shadowed.image_bytes - flat.image_bytes);
-  const ShadowLevel& level = kShadowLevels[shadowed.effects.level(Effect::kShadows)];
-  EXPECT_GE(shadowed.effect_costs[kShadows].bytes, 2 * sizeof(float) * 2 * level.width * level.height);
-  EXPECT_GT(effect_time_ms(shadowed, Effect::kShadows).value_or(0.0), 0.0);
+    Shape with_box = road;
+    with_box.box({20, -1, 0}, {21, 1, 2});
+    ASSERT_TRUE(renderer->load_scene(with_box.scene()).ok());
+    const FrameResult shadowed = renderer->draw(input);
+    EXPECT_EQ(kShadowNames[shadowed.effects.level(Effect::kShadows)], "soft");
+    EXPECT_EQ(shadowed.pass_count, 2u);
+    // Drawn by a device into an image, and copied into the buffer that is read; by the processor into one of two of
+    // those.
+    const bool draws_itself = shadowed.image_bytes == flat.image_bytes;
+    if (!processor_draws) {
+      EXPECT_FALSE(draws_itself);
+    }
+    constexpr auto kShadows = static_cast<std::size_t>(Effect::kShadows);
+    const auto maps = std::ranges::count(shadowed.passes, std::string("shadows"), &PassTime::name);
+    EXPECT_EQ(shadowed.effect_costs[kShadows].passes, static_cast<std::uint32_t>(maps));
+    EXPECT_EQ(shadowed.other_cost.passes, 1u) << "the lamp pass";
+    EXPECT_GE(shadowed.effect_costs[kShadows].bytes, shadowed.image_bytes - flat.image_bytes);
+    const ShadowLevel& level = kShadowLevels[shadowed.effects.level(Effect::kShadows)];
+    EXPECT_GE(shadowed.effect_costs[kShadows].bytes, 2 * sizeof(float) * 2 * level.width * level.height);
+    EXPECT_GT(effect_time_ms(shadowed, Effect::kShadows).value_or(0.0), 0.0);
 
-  input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
-  const FrameResult off = renderer->draw(input);
-  EXPECT_EQ(off.pass_count, flat.pass_count);
-  EXPECT_EQ(off.effect_costs[kShadows].passes, 0u);
-  EXPECT_EQ(off.effect_costs[kShadows].bytes, 0u);
-  EXPECT_FALSE(effect_time_ms(off, Effect::kShadows).has_value());
-  EXPECT_EQ(off.images, flat.images);
-  EXPECT_EQ(off.image_bytes, flat.image_bytes);
-  EXPECT_EQ(off.draws, flat.draws);
-  EXPECT_NE(off.effects[Effect::kShadows].reason.find("not looked for"), std::string::npos);
+    input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
+    const FrameResult off = renderer->draw(input);
+    EXPECT_EQ(off.pass_count, flat.pass_count);
+    EXPECT_EQ(off.effect_costs[kShadows].passes, 0u);
+    EXPECT_EQ(off.effect_costs[kShadows].bytes, 0u);
+    EXPECT_FALSE(effect_time_ms(off, Effect::kShadows).has_value());
+    EXPECT_EQ(off.images, flat.images);
+    EXPECT_EQ(off.image_bytes, flat.image_bytes);
+    EXPECT_EQ(off.draws, flat.draws);
+    EXPECT_NE(off.effects[Effect::kShadows].reason.find("not looked for"), std::string::npos);
 
-  // The box behind the lamps casts nothing.
-  input.effects = {};
-  for (PlacedLamp& lamp : input.lamps) lamp.position_m.x = 22.0;
-  input.camera.eye_m.x = 20.1;
-  EXPECT_EQ(renderer->draw(input).effects.level(Effect::kShadows), 0u);
+    // The box behind the lamps casts nothing.
+    input.effects = {};
+    for (PlacedLamp& lamp : input.lamps) lamp.position_m.x = 22.0;
+    input.camera.eye_m.x = 20.1;
+    EXPECT_EQ(renderer->draw(input).effects.level(Effect::kShadows), 0u);
+  });
 }
-
 // Of ground in many triangles those that no shadow can reach are drawn as where nothing casts; the picture is that of
 // rays, which are asked everywhere, but for the width of a texel.
 TEST_F(Shadows, PiecesOfGroundThatNoneReachesAreDrawnWithoutAndLookTheSame) {
@@ -267,13 +311,13 @@ TEST_F(Shadows, PiecesOfGroundThatNoneReachesAreDrawnWithoutAndLookTheSame) {
   const FrameResult by_rays = renderer->draw(input);
   const Image8 expected = renderer->read_image();
   input.effects[static_cast<std::size_t>(Effect::kShadows)] = 0;
-  renderer->draw(input);
+  const FrameResult without = renderer->draw(input);
   const Image8 open = renderer->read_image();
   input.effects = {};
   const FrameResult by_maps = renderer->draw(input);
   const Image8 seen = renderer->read_image();
   EXPECT_EQ(kShadowNames[by_maps.effects.level(Effect::kShadows)], "soft");
-  EXPECT_GT(by_maps.views.front().draws, by_rays.views.front().draws + 2) << "no piece is drawn without";
+  EXPECT_GT(by_maps.views.front().draws, without.views.front().draws) << "no piece is drawn without";
   std::size_t in_shadow = 0, differ = 0;
   for (std::size_t i = 0; i < seen.rgba.size(); i += 4) {
     const auto off = [&](const Image8& other) {
@@ -294,16 +338,54 @@ TEST_F(Shadows, AThingInTheMiddleIsDrawnIntoOnePictureOfAMap) {
   Shape both = near;
   both.box({60, -1, 0}, {61, 1, 2});
   const FrameInput input = view_of_the_road();
-  const auto triangles = [&](Shape& shape) {
-    EXPECT_TRUE(renderer->load_scene(shape.scene()).ok());
-    const FrameResult frame = renderer->draw(input);
-    EXPECT_NE(frame.effects.level(Effect::kShadows), 0u);
-    return frame.triangles;
-  };
-  constexpr std::uint64_t kBox = 12, kLamps = 2;
-  const std::uint64_t more = triangles(both) - triangles(near);
-  EXPECT_GT(more, kBox) << "it casts";
-  EXPECT_LE(more, kBox + kLamps * kBox) << "once for each lamp";
+  with_both([&](bool processor_draws) {
+    if (processor_draws) return;  // it counts none
+    const auto triangles = [&](Shape& shape) {
+      EXPECT_TRUE(renderer->load_scene(shape.scene()).ok());
+      const FrameResult frame = renderer->draw(input);
+      EXPECT_NE(frame.effects.level(Effect::kShadows), 0u);
+      return frame.triangles;
+    };
+    constexpr std::uint64_t kBox = 12, kLamps = 2;
+    const std::uint64_t more = triangles(both) - triangles(near);
+    EXPECT_GT(more, kBox) << "it casts";
+    EXPECT_LE(more, kBox + kLamps * kBox) << "once for each lamp";
+  });
+}
+
+// Leaves, trunks and posts on both sides of a road, some beside the lamps.
+TEST_F(Shadows, AreWhereTheDeviceHasThemThoughTheProcessorDraws) {
+  const Result<Scene> scene = read_scene(generated_dir() / "scenes/country_road.glb");
+  ASSERT_TRUE(scene.ok());
+  FrameInput input = view_of_the_road();
+  input.want_image = true;
+  input.exposure_per_cdm2 = 3.0;
+  std::vector<std::vector<std::uint8_t>> pictures;
+  with_both([&](bool processor_draws) {
+    ASSERT_TRUE(renderer->load_scene(*scene).ok());
+    std::size_t picture = 0, differ = 0, shadowed = 0;
+    for (const double x_m : {26.9, 100.0, 180.0})
+      for (std::size_t level = 0; level <= 3; ++level, ++picture) {
+        input.effects[static_cast<std::size_t>(Effect::kShadows)] = level;
+        input.camera.eye_m = {x_m - 1.9, -1.2, 1.22};
+        for (std::size_t i = 0; i < 2; ++i) input.lamps[i].position_m = {x_m, i == 0 ? -1.0 : -2.2, 0.65};
+        renderer->draw(input);
+        if (processor_draws) {
+          pictures.push_back(renderer->read_image().rgba);
+          continue;
+        }
+        const std::vector<std::uint8_t> drawn = renderer->read_image().rgba;
+        for (std::size_t i = 0; i < drawn.size(); i += 4) {
+          if (std::abs(int{drawn[i + 1]} - int{pictures[picture][i + 1]}) > 2) ++differ;
+          if (drawn[i + 1] != pictures[4 * (picture / 4)][i + 1]) ++shadowed;
+        }
+      }
+    if (processor_draws) return;
+    std::printf("%zu pixels in shadow, %zu of them differ\n", shadowed, differ);
+    EXPECT_GT(shadowed, 5000u);
+    // A side is off by a 256th of a texel at most, either way, so one in 128 texels that it passes tells otherwise.
+    EXPECT_LE(differ, shadowed / 128);
+  });
 }
 
 TEST_F(Shadows, ALampSeenInManyViewsAndAmongManyLampsCastsTheSameShadow) {
@@ -333,26 +415,31 @@ TEST_F(Shadows, InTheBeamOfOneLampAreDrawnAsInThoseOfBoth) {
   Shape shape;
   shape.quad({0, -30, 0}, {100, -30, 0}, {100, 30, 0}, {0, 30, 0});
   shape.box({20, -1, 0}, {21, 1, 2});
-  ASSERT_TRUE(renderer->load_scene(shape.scene()).ok());
-  FrameInput both = view_of_the_road();
-  both.want_image = both.few_kinds = true;
-  const FrameResult of_both = renderer->draw(both);
-  FrameInput one = both;
-  one.lamps.back().position_m = {21.5, -0.62, 0.65};  // the box is behind it
-  const FrameResult each = renderer->draw(one);
-  EXPECT_EQ(each.pipelines_made, 0u);
-  EXPECT_EQ(each.image_bytes, of_both.image_bytes);
-  const std::vector<std::uint8_t> expected = renderer->read_image().rgba;
+  with_both([&](bool) {
+    ASSERT_TRUE(renderer->load_scene(shape.scene()).ok());
+    FrameInput both = view_of_the_road();
+    both.want_image = both.few_kinds = true;
+    const FrameResult of_both = renderer->draw(both);
+    FrameInput one = both;
+    one.lamps.back().position_m = {21.5, -0.62, 0.65};  // the box is behind it
+    const FrameResult each = renderer->draw(one);
+    EXPECT_EQ(each.pipelines_made, 0u);
+    const auto bytes = [](const FrameResult& frame) {
+      return frame.effect_costs[static_cast<std::size_t>(Effect::kShadows)].bytes;
+    };
+    EXPECT_EQ(bytes(each), bytes(of_both));
+    const std::vector<std::uint8_t> expected = renderer->read_image().rgba;
 
-  one.few_kinds = false;
-  const FrameResult alone = renderer->draw(one);
-  EXPECT_LT(alone.image_bytes, each.image_bytes) << "one map";
-  EXPECT_EQ(renderer->read_image().rgba, expected);
+    one.few_kinds = false;
+    const FrameResult alone = renderer->draw(one);
+    EXPECT_LT(bytes(alone), bytes(each)) << "one map";
+    EXPECT_EQ(renderer->read_image().rgba, expected);
 
-  // Where nothing stands in any beam there is none to read.
-  one.few_kinds = true;
-  for (PlacedLamp& lamp : one.lamps) lamp.position_m.x = 21.5;
-  EXPECT_EQ(renderer->draw(one).effects.level(Effect::kShadows), 0u);
+    // Where nothing stands in any beam there is none to read.
+    one.few_kinds = true;
+    for (PlacedLamp& lamp : one.lamps) lamp.position_m.x = 21.5;
+    EXPECT_EQ(renderer->draw(one).effects.level(Effect::kShadows), 0u);
+  });
 }
 
 // As many maps as lamps that something stands before, in as many images as the device's largest takes.

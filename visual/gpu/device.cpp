@@ -148,6 +148,7 @@ Device::Device(const DeviceOptions& options) {
                                                  .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
                                                  .ppEnabledExtensionNames = extensions.data(),
                                                  .pEnabledFeatures = &features});
+  processor_depths = options.processor_depths && properties.deviceType == vk::PhysicalDeviceType::eCpu;
   if (draws_many)
     multi_draw = {reinterpret_cast<PFN_vkCmdDrawMultiIndexedEXT>(device.getProcAddr("vkCmdDrawMultiIndexedEXT")),
                   physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceMultiDrawPropertiesEXT>()

@@ -56,6 +56,7 @@ struct DeviceOptions {
   std::string device_name{};  ///< part of the name of the wanted device; empty: the first discrete GPU, else any
   bool float64 = true;        ///< false: as if the device had no shaderFloat64
   bool multi_draw = true;     ///< false: as if it had no VK_EXT_multi_draw
+  bool processor_depths = true;  ///< false: one that is the processor draws depths itself, as others do
 };
 
 /// So many frames may be on their way to the device: one is recorded while it draws the one before.
@@ -86,6 +87,7 @@ class Device {
   bool float64 = false;       ///< shaderFloat64 is there and enabled
   float most_anisotropy = 1.0f;  ///< of a sampler
   MultiDraw multi_draw;
+  bool processor_depths = false;  ///< it is the processor, which draws depths faster without it
   bool primitive_id = false;  ///< fragments know their triangle: geometryShader is there and enabled
   std::shared_ptr<std::atomic<std::uint64_t>> validation_messages = std::make_shared<std::atomic<std::uint64_t>>(0);
   MemoryCount allocated_bytes = std::make_shared<std::uint64_t>(0);

@@ -1,6 +1,7 @@
 #include "visual/gpu/frame_graph.h"
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -78,6 +79,7 @@ void FrameGraph::begin(vk::CommandBuffer commands) {
   account_ = kFrameAccount;
   kept_.clear();
   recorded_->passes.clear();
+  recorded_->stamped = 0;
   counts_ = {};
   std::erase_if(images_, [](const auto& named) { return !named.second.slot; });  // making them failed
   for (auto& [name, held] : images_) held.asked = held.slot->taken = held.slot->released = false;
@@ -181,6 +183,15 @@ void FrameGraph::copy(const std::string& name, const std::vector<ImageUse>& uses
   record_pass(name, uses, record);
 }
 
+void FrameGraph::by_processor(const std::string& name, const std::function<void()>& draw) {
+  ++counts_.passes;
+  ++counts_.accounts[account_].passes;
+  const auto begin = std::chrono::steady_clock::now();
+  draw();
+  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+  recorded_->passes.push_back({prefix_ + name, account_, took.count()});
+}
+
 void FrameGraph::read_back(Image& image, const vk::Rect2D& part, const HostBuffer& to) {
   copy("read back " + image.name, {{&image, Use::kCopySource, false}}, [&](Recorder& commands) {
     commands.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *to.buffer,
@@ -199,8 +210,8 @@ void FrameGraph::read_back(Image& image, const vk::Rect2D& part, const HostBuffe
 
 void FrameGraph::record_pass(const std::string& name, const std::vector<ImageUse>& uses,
                              const std::function<void(Recorder&)>& record) {
-  auto& [stamps, read, passes] = *recorded_;
-  const auto at = static_cast<std::uint32_t>(passes.size());
+  auto& [stamps, read, passes, stamped] = *recorded_;
+  const std::uint32_t at = stamped++;
   if (at / kPassesInPool == stamps.size()) {
     stamps.emplace_back(device_.device, vk::QueryPoolCreateInfo{.queryType = vk::QueryType::eTimestamp,
                                                                 .queryCount = 2 * kPassesInPool});
@@ -245,13 +256,13 @@ void FrameGraph::end() {
 
 void FrameGraph::read_back_stamps() {
   if (device_.stamp_bits == 0) return;
-  auto& [stamps, read, passes] = *recorded_;
+  auto& [stamps, read, passes, stamped] = *recorded_;
   constexpr vk::DeviceSize kPoolBytes = 2 * kPassesInPool * sizeof(std::uint64_t);
   if (read.bytes < stamps.size() * kPoolBytes)
     read = HostBuffer(device_, stamps.size() * kPoolBytes, vk::BufferUsageFlagBits::eTransferDst, "time stamps", true);
-  for (std::size_t begin = 0; begin < passes.size(); begin += kPassesInPool) {
+  for (std::uint32_t begin = 0; begin < stamped; begin += kPassesInPool) {
     const std::size_t pool = begin / kPassesInPool;
-    const auto count = 2 * static_cast<std::uint32_t>(std::min<std::size_t>(passes.size() - begin, kPassesInPool));
+    const std::uint32_t count = 2 * std::min(stamped - begin, kPassesInPool);
     commands_.copyQueryPoolResults(*stamps[pool], 0, count, *read.buffer, pool * kPoolBytes, sizeof(std::uint64_t),
                                    vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
   }
@@ -265,17 +276,23 @@ void FrameGraph::read_back_stamps() {
 std::span<const std::uint64_t> FrameGraph::read_stamps(std::size_t frame) const {
   const Passes& of = recorded_.of(frame);
   if (device_.stamp_bits == 0) return {};
-  return {static_cast<const std::uint64_t*>(of.read.data), 2 * of.passes.size()};
+  return {static_cast<const std::uint64_t*>(of.read.data), std::size_t{2} * of.stamped};
 }
 
 std::vector<FrameGraph::Timing> FrameGraph::timings(std::size_t frame) const {
   std::vector<Timing> result;
-  const std::vector<Recorded>& passes = recorded_.of(frame).passes;
   const std::span<const std::uint64_t> stamps = read_stamps(frame);
   const double ms_per_tick = static_cast<double>(device_.properties.limits.timestampPeriod) * 1e-6;
-  for (std::size_t i = 0; 2 * i < stamps.size(); ++i)
-    result.push_back({passes[i].name, passes[i].account,
-                      ticks_between(stamps[2 * i], stamps[2 * i + 1], device_.stamp_bits) * ms_per_tick});
+  std::size_t next = 0;
+  for (const Recorded& pass : recorded_.of(frame).passes) {
+    if (pass.processor_ms) {
+      result.push_back({pass.name, pass.account, *pass.processor_ms});
+    } else if (next + 1 < stamps.size()) {
+      result.push_back(
+          {pass.name, pass.account, ticks_between(stamps[next], stamps[next + 1], device_.stamp_bits) * ms_per_tick});
+      next += 2;
+    }
+  }
   return result;
 }
 

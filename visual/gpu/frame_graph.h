@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -146,6 +147,8 @@ class FrameGraph {
   void copy(const std::string& name, const std::vector<ImageUse>& uses, const std::function<void(Recorder&)>& record);
   /// A part of an image into a buffer that holds as many texels, for the processor.
   void read_back(Image& image, const vk::Rect2D& part, const HostBuffer& to);
+  /// One that draws with the processor, now, into memory that the device does not read yet.
+  void by_processor(const std::string& name, const std::function<void()>& draw);
   void end();
 
   /// Frees the images that the frame just recorded did not ask for. If there are some, frames are waited for.
@@ -158,9 +161,10 @@ class FrameGraph {
     Account account = kFrameAccount;
     double ms = 0.0;
   };
-  /// Once the GPU is done with the frame of this number (Device::frame): milliseconds of each of its passes.
+  /// Once the GPU is done with the frame of this number (Device::frame): milliseconds of each of its passes, on the
+  /// device or the processor.
   std::vector<Timing> timings(std::size_t frame) const;
-  /// From the first to the last time stamp, ms.
+  /// From the first to the last time stamp of the device, ms.
   double total_ms(std::size_t frame) const;
 
  private:
@@ -191,12 +195,14 @@ class FrameGraph {
   struct Recorded {
     std::string name;
     Account account = kFrameAccount;
+    std::optional<double> processor_ms{};  ///< it has no stamps
   };
   /// Of one frame.
   struct Passes {
     std::vector<vk::raii::QueryPool> stamps;  ///< each of kPassesInPool passes; more are made when a frame needs them
     HostBuffer read;  ///< two stamps a pass, once the frame is done; asked of its pool, a device may wait for all frames
     std::vector<Recorded> passes;
+    std::uint32_t stamped = 0;  ///< of those, by the device
   };
 
   Device& device_;

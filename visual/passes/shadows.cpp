@@ -13,6 +13,7 @@
 #include "shaders/shadow_cut_vert.h"
 #include "shaders/shadow_vert.h"
 #include "shaders/textured.h"
+#include "visual/caster_depths.h"
 #include "visual/caster_grid.h"
 #include "visual/passes/constants.h"
 
@@ -43,34 +44,29 @@ glm::vec2 half_unread(const ShadowLevel& level, double zoom) {
   return (half - 1.0f) / static_cast<float>(zoom) - 3.0f;
 }
 
-/// Triangles that hold the middle of a texel, of a picture of so many texels either way from the axis to a tangent of
-/// 1, and that reach out of the `unread` texels either way from its middle.
-template <typename Corner>
-void append_seen(std::vector<Corner>& seen, const std::vector<Corner>& corners, const std::vector<CastBounds>& bounds,
-                 const glm::dvec2& texels, const ShadowLevel& level, const glm::vec2& unread) {
-  const glm::vec2 scale(texels), half(0.5f * static_cast<float>(level.width), 0.5f * static_cast<float>(level.height));
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    const CastBounds& triangle = bounds[i];
-    const glm::vec2 low = half - triangle.most * scale, high = half - triangle.least * scale;
-    const glm::vec2 first = glm::ceil(low - 0.5f), last = glm::floor(high - 0.5f);
-    const bool holds_one = first.x <= last.x && first.y <= last.y && last.x >= 0.0f && last.y >= 0.0f &&
-                           first.x < 2.0f * half.x && first.y < 2.0f * half.y;
-    const bool is_read = low.x < half.x - unread.x || high.x > half.x + unread.x || low.y < half.y - unread.y ||
-                         high.y > half.y + unread.y;
-    if (triangle.beside || (holds_one && is_read)) seen.insert(seen.end(), &corners[3 * i], &corners[3 * i] + 3);
-  }
-}
-
-std::size_t texels_of_map(const ShadowLevel& level) {
-  return std::size_t{2} * level.width * level.height;
-}
-
 struct Map {
   std::size_t lamp = 0;    ///< of the view
   glm::dvec2 half{1.0};    ///< sides of what its first picture shows, tangents
   glm::dvec2 texels{0.0};  ///< of its first picture, to a tangent of 1
   double zoom = 1.0;       ///< of its second; the same for all of a view
 };
+
+DepthPicture picture_of(const Map& map, const ShadowLevel& level, bool close) {
+  DepthPicture picture{.width = level.width, .height = level.height, .texels = map.texels * (close ? map.zoom : 1.0)};
+  if (!close) picture.margin = 1, picture.half_unread = half_unread(level, map.zoom);
+  return picture;
+}
+
+template <typename Corner>
+void append_seen(std::vector<Corner>& seen, const std::vector<Corner>& corners, const std::vector<CastBounds>& bounds,
+                 const DepthPicture& picture) {
+  for (std::size_t i = 0; i < bounds.size(); ++i)
+    if (picture.shows(bounds[i])) seen.insert(seen.end(), &corners[3 * i], &corners[3 * i] + 3);
+}
+
+std::size_t texels_of_map(const ShadowLevel& level) {
+  return std::size_t{2} * level.width * level.height;
+}
 
 /// A map for each lamp that something stands before, `most` of them; the view's data say where points fall on it. An
 /// empty one for each of the others, where the view asks for that and there is room.
@@ -180,6 +176,11 @@ void tell_shadowed(LitView& view, std::span<const Shade> shades) {
   draw_together(view.items);
 }
 
+/// Of what casts in the view some has holes that are drawn.
+bool has_holes(const LitScene& scene, const LitView& view) {
+  return scene.has_textures() && std::ranges::any_of(view.casts, [](const auto& cast) { return !cast->cut.empty(); });
+}
+
 template <typename Corner>
 void fill_buffer(gpu::Device& device, gpu::HostBuffer& buffer, const std::vector<Corner>& corners) {
   const std::span<const std::byte> bytes = std::as_bytes(std::span(corners));
@@ -208,25 +209,24 @@ Drawn drawn_into(const Map& map, const CastBy& cast, const ShadowLevel& level, b
   Drawn drawn;
   drawn.corners.reserve(3 * (cast.far_sides.bounds.size() + cast.both_sides.bounds.size()));
   for (std::size_t close = 0; close < 2; ++close) {
-    const glm::dvec2 texels = map.texels * (close == 1 ? map.zoom : 1.0);
-    const glm::vec2 unread = close == 1 ? glm::vec2(-1e30f) : half_unread(level, map.zoom);
+    const DepthPicture seen = picture_of(map, level, close == 1);
     ShadowPass::Ranges& picture = drawn.pictures[close];
     for (std::size_t side = 0; side < 2; ++side) {
       const WholeCasters& whole = side == 0 ? cast.far_sides : cast.both_sides;
       const auto first = static_cast<std::uint32_t>(drawn.corners.size());
-      append_seen(drawn.corners, whole.corners, whole.bounds, texels, level, unread);
+      append_seen(drawn.corners, whole.corners, whole.bounds, seen);
       if (side == 1 && !textures)  // a device that draws no holes: whole
         for (const CutCasters& cut : cast.cut) {
           std::vector<glm::vec3> corners;
           for (const CutCorner& corner : cut.corners) corners.push_back(corner.corner_m);
-          append_seen(drawn.corners, corners, cut.bounds, texels, level, unread);
+          append_seen(drawn.corners, corners, cut.bounds, seen);
         }
       picture.sides[side] = {first, static_cast<std::uint32_t>(drawn.corners.size()) - first};
     }
     if (!textures) continue;
     for (const CutCasters& cut : cast.cut) {
       const auto first = static_cast<std::uint32_t>(drawn.cut_corners.size());
-      append_seen(drawn.cut_corners, cut.corners, cut.bounds, texels, level, unread);
+      append_seen(drawn.cut_corners, cut.corners, cut.bounds, seen);
       if (const auto count = static_cast<std::uint32_t>(drawn.cut_corners.size()) - first; count > 0)
         picture.cut.push_back({cut.material, {first, count}});
     }
@@ -281,22 +281,37 @@ void ShadowPass::begin_frame(bool seen) {
 ShadowDepths& ShadowPass::depths_of(std::size_t texels) {
   if (used_ == depths_.size()) depths_.push_back(std::make_unique<ShadowDepths>(device_));
   ShadowDepths& depths = *depths_[used_++];
-  if (depths.texels.bytes == 4 * texels) return depths;
-  if (depths.texels.bytes > 0) device_.wait_for_frames();
+  const vk::DeviceSize bytes = 4 * texels;
+  if (depths.bytes() == bytes * (device_.processor_depths ? gpu::kMostFramesInFlight : 1)) return depths;
+  if (depths.bytes() > 0) device_.wait_for_frames();
   depths = ShadowDepths(device_);
-  depths.texels = gpu::DeviceBuffer(device_, 4 * texels, vk::BufferUsageFlagBits::eUniformTexelBuffer, "shadow depths");
-  depths.view = vk::raii::BufferView(
-      device_.device, vk::BufferViewCreateInfo{
-                          .buffer = *depths.texels.buffer, .format = vk::Format::eR32Sfloat, .range = VK_WHOLE_SIZE});
   depths.sets = gpu::DescriptorSets(device_, kShadowBindings);
-  depths.set = depths.sets.make();
-  const vk::BufferView view = *depths.view;
-  device_.device.updateDescriptorSets(vk::WriteDescriptorSet{.dstSet = depths.set,
-                                                             .dstBinding = 0,
-                                                             .descriptorCount = 1,
-                                                             .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
-                                                             .pTexelBufferView = &view},
-                                      nullptr);
+  using Usage = vk::BufferUsageFlagBits;
+  const auto set_of = [&](const vk::raii::Buffer& buffer, vk::raii::BufferView& view) {
+    view = vk::raii::BufferView(
+        device_.device,
+        vk::BufferViewCreateInfo{.buffer = *buffer, .format = vk::Format::eR32Sfloat, .range = VK_WHOLE_SIZE});
+    const vk::DescriptorSet set = depths.sets.make();
+    device_.device.updateDescriptorSets(
+        vk::WriteDescriptorSet{.dstSet = set,
+                               .dstBinding = 0,
+                               .descriptorCount = 1,
+                               .descriptorType = vk::DescriptorType::eUniformTexelBuffer,
+                               .pTexelBufferView = &*view},
+        nullptr);
+    return set;
+  };
+  if (device_.processor_depths) {
+    depths.in_turn.resize(gpu::kMostFramesInFlight);
+    for (ShadowDepths::InTurn& one : depths.in_turn) {
+      one.texels = gpu::HostBuffer(device_, bytes, Usage::eUniformTexelBuffer | Usage::eTransferDst, "shadow depths");
+      one.set = set_of(one.texels.buffer, one.view);
+    }
+    depths.set = depths.in_turn.front().set;
+  } else {
+    depths.texels = gpu::DeviceBuffer(device_, bytes, Usage::eUniformTexelBuffer, "shadow depths");
+    depths.set = set_of(depths.texels.buffer, depths.view);
+  }
   return depths;
 }
 
@@ -366,29 +381,49 @@ void ShadowPass::draw_maps(gpu::FrameGraph& graph, LitScene& scene, LitView& vie
   for (const Map& map : maps) held.push_back({view.casts[map.lamp], map.half, map.texels, map.zoom});
   if (depths.held == held && depths.level == level) {
     // All stands still: the maps are as they were, and so is the memory that they will be drawn in.
-    graph.release(map_image(graph, level, 2 * std::min(maps.size(), in_image)));
+    if (!device_.processor_depths || has_holes(scene, view))
+      graph.release(map_image(graph, level, 2 * std::min(maps.size(), in_image)));
   } else {
     depths.held = std::move(held), depths.level = level;
     depths.grids.resize(maps.size());
-    std::vector<Drawn> drawn(maps.size());
-    on_all_cores(2 * maps.size(), [&](std::size_t turn) {
-      const std::size_t i = turn / 2;
-      const CastBy& cast = *view.casts[maps[i].lamp];
-      if (turn % 2 == 0)
-        depths.grids[i] = CasterGrid(cast, maps[i].half, 1.0 / maps[i].texels, maps[i].zoom);
-      else
-        drawn[i] = drawn_into(maps[i], cast, level, scene.has_textures());
-    });
-    const std::vector<Ranges> ranges = fill_triangles(device_, depths, drawn);
-    for (std::size_t first = 0; first < maps.size(); first += in_image) {
-      std::vector<Picture> pictures;
-      for (std::size_t map = first; map < std::min(maps.size(), first + in_image); ++map)
-        for (const bool close : {false, true})
-          pictures.push_back({.close = close,
-                              .scale = maps[map].texels * (close ? maps[map].zoom : 1.0) /
-                                       glm::dvec2(0.5 * level.width, 0.5 * level.height),
-                              .ranges = ranges[2 * map + (close ? 1 : 0)]});
-      draw_image(graph, scene, depths, level, pictures, first * texels_of_map(level));
+    if (!depths.in_turn.empty()) {
+      depths.turn = (depths.turn + 1) % depths.in_turn.size();
+      depths.set = depths.in_turn[depths.turn].set;
+    }
+    const auto cast_by = [&](std::size_t map) -> const CastBy& { return *view.casts[maps[map].lamp]; };
+    const auto find_grid = [&](std::size_t map) {
+      depths.grids[map] = CasterGrid(cast_by(map), maps[map].half, 1.0 / maps[map].texels, maps[map].zoom);
+    };
+    if (device_.processor_depths && !has_holes(scene, view)) {
+      float* const texels = static_cast<float*>(depths.in_turn[depths.turn].texels.data);
+      const std::size_t in_picture = texels_of_map(level) / 2;
+      graph.by_processor("shadows", [&] {
+        on_all_cores(3 * maps.size(), [&](std::size_t turn) {
+          const std::size_t map = turn / 3, picture = turn % 3;
+          if (picture == 2) return find_grid(map);
+          const std::span<float> into(texels + (2 * map + picture) * in_picture, in_picture);
+          std::ranges::fill(into, 0.0f);
+          raise_depths(picture_of(maps[map], level, picture == 1), cast_by(map), true, into);
+        });
+      });
+    } else {
+      std::vector<Drawn> drawn(maps.size());
+      on_all_cores(2 * maps.size(), [&](std::size_t turn) {
+        const std::size_t map = turn / 2;
+        if (turn % 2 == 0) return find_grid(map);
+        drawn[map] = drawn_into(maps[map], cast_by(map), level, scene.has_textures());
+      });
+      const std::vector<Ranges> ranges = fill_triangles(device_, depths, drawn);
+      for (std::size_t first = 0; first < maps.size(); first += in_image) {
+        std::vector<Picture> pictures;
+        for (std::size_t map = first; map < std::min(maps.size(), first + in_image); ++map)
+          for (const bool close : {false, true})
+            pictures.push_back({.close = close,
+                                .scale = maps[map].texels * (close ? maps[map].zoom : 1.0) /
+                                         glm::dvec2(0.5 * level.width, 0.5 * level.height),
+                                .ranges = ranges[2 * map + (close ? 1 : 0)]});
+        draw_image(graph, scene, depths, level, pictures, first * texels_of_map(level));
+      }
     }
   }
   std::vector<Shade> shades;
@@ -398,7 +433,7 @@ void ShadowPass::draw_maps(gpu::FrameGraph& graph, LitScene& scene, LitView& vie
     shades.push_back({glm::transpose(lamp.world_from_image), lamp.position_m, depths.grids[i]});
   }
   tell_shadowed(view, shades);
-  graph.count_kept(&depths, depths.texels.bytes);
+  graph.count_kept(&depths, depths.bytes());
   view.shadows = view.air_shadows.level = level;
   view.depths = view.air_shadows.depths = &depths;
 }
@@ -453,6 +488,7 @@ void ShadowPass::draw_image(gpu::FrameGraph& graph, LitScene& scene, const Shado
     }
     commands.endRendering();
   });
+  const vk::Buffer buffer = depths.in_turn.empty() ? *depths.texels.buffer : *depths.in_turn[depths.turn].texels.buffer;
   graph.copy("shadow depths", {{&image, gpu::Use::kCopySource, false}}, [&](gpu::Recorder& commands) {
     // The frame before may still read its own.
     constexpr vk::PipelineStageFlags2 kReaders =
@@ -461,7 +497,7 @@ void ShadowPass::draw_image(gpu::FrameGraph& graph, LitScene& scene, const Shado
                                        .dstStageMask = vk::PipelineStageFlagBits2::eCopy,
                                        .dstAccessMask = vk::AccessFlagBits2::eTransferWrite};
     commands.pipelineBarrier2(vk::DependencyInfo{.memoryBarrierCount = 1, .pMemoryBarriers = &once_read});
-    commands.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, *depths.texels.buffer,
+    commands.copyImageToBuffer(*image.image, vk::ImageLayout::eTransferSrcOptimal, buffer,
                                vk::BufferImageCopy{.bufferOffset = 4 * first_texel,
                                                    .imageSubresource = {vk::ImageAspectFlagBits::eDepth, 0, 0, 1},
                                                    .imageExtent = {extent.width, extent.height, 1}});

@@ -1,12 +1,15 @@
 // Shadows of what stands in the light of a view's lamps: a map of depths for each lamp that something stands before,
 // rendered once a view and read where the view is lit (shaders/lib/shadow.glsl).
 //
+// Where the device is the processor our own code draws the maps (visual/caster_depths.h), but for those with holes.
+//
 // While lamps, eye and all in their light stand still, maps are kept from frame to frame (visual/kept_casters.h).
 //
 // Maps hold the far sides of things (visual/shadow_casters.h), on a plane across the lamp's axis that is fitted to
 // them. Error: an edge is off by half a texel, seen from the lamp; levels differ in texels. Left out: what is more than
 // 75° beside the lamp's axis, 45° above or below it (75° of beams with light there) or farther than 300 m from it, what
-// hides faint light alone (kFaintShown), and the size of the lamp. The finest levels have no maps: visual/passes/shadow_rays.h.
+// hides faint light alone (kFaintShown), and the size of the lamp. The finest levels have no maps:
+// visual/passes/shadow_rays.h.
 #pragma once
 
 #include <array>
