@@ -8,15 +8,10 @@
 
 namespace phare {
 
-Supervisor::Supervisor(std::vector<ProcessSpec> specs) {
+Supervisor::Supervisor(std::vector<ProcessSpec> specs, std::chrono::milliseconds short_life) : short_life_(short_life) {
   for (ProcessSpec& spec : specs)
-    processes_.push_back(Watched{.spec = std::move(spec),
-                                 .child = {},
-                                 .due = {},
-                                 .restarted = {},
-                                 .alive = {},
-                                 .watchdog = {},
-                                 .ended_because = {}});
+    processes_.push_back(Watched{
+        .spec = std::move(spec), .child = {}, .left = {}, .due = {}, .alive = {}, .watchdog = {}, .ended_because = {}});
 }
 
 Supervisor::~Supervisor() {
@@ -44,6 +39,7 @@ Status Supervisor::begin(Watched& process, const std::vector<std::string>& argum
   auto child = ChildProcess::start(process.spec.program, arguments);
   if (!child) return child.error();
   process.child = *child;
+  process.begun = Clock::now();
   process.last_end = "running";
   process.ended_because.clear();
   spdlog::debug("started {} (pid {})", process.spec.name, child->pid());
@@ -92,6 +88,10 @@ bool Supervisor::look_after(Watched& process) {
     if (const Status begun = begin(process, arguments); !begun) return give_up(kExitCheckFailed, begun.error().text());
     return true;
   }
+  if (process.left && pictures_go_on_since(*process.left + kLeftAlone)) {
+    process.left.reset();
+    return restart(process, "exit 0, while the pictures go on");
+  }
   if (!process.child) return true;
   const auto end = process.child->ended();
   if (!end) {
@@ -100,24 +100,37 @@ bool Supervisor::look_after(Watched& process) {
   }
   process.child.reset();
   process.last_end = end->text();
-  const std::string because = process.ended_because.empty() ? end->text() : process.ended_because;
   if (end->signal == 0 && end->exit_code == kExitDone) {
-    process.done = true;
+    if (process.spec.ends_the_drive)
+      process.done = true;
+    else
+      process.left = now;
     return true;
   }
   // Bad input stays bad however often it is read again; the process has said what it is.
   if (end->signal == 0 && end->exit_code == kExitBadInput) {
     return give_up(kExitBadInput, process.spec.name + " refused its input (see above)");
   }
-  while (!process.restarted.empty() && now - process.restarted.front() > kRestartWindow) process.restarted.pop_front();
-  if (process.restarted.size() >= kMaxRestarts) {
-    return give_up(kExitCheckFailed, process.spec.name + " ended with " + because + " after " +
-                                         std::to_string(kMaxRestarts) + " restarts within " +
-                                         std::to_string(kRestartWindow.count()) + " s");
+  return restart(process, process.ended_because.empty() ? end->text() : process.ended_because);
+}
+
+/// One that draws has looked at the bus since: told to end, it would not.
+bool Supervisor::pictures_go_on_since(Clock::time_point then) const {
+  return std::ranges::any_of(processes_, [&](const Watched& process) {
+    return process.spec.ends_the_drive && process.child && process.alive && process.alive->newest() > then;
+  });
+}
+
+bool Supervisor::restart(Watched& process, const std::string& because) {
+  const auto now = Clock::now();
+  if (now - process.begun >= short_life_) process.short_lives = 0;
+  if (process.short_lives >= kMaxRestarts) {
+    return give_up(kExitCheckFailed,
+                   process.spec.name + " ended with " + because + " after " + std::to_string(kMaxRestarts) +
+                       " restarts, none of which lasted " +
+                       std::to_string(std::chrono::duration_cast<std::chrono::seconds>(short_life_).count()) + " s");
   }
-  const auto backoff = kFirstBackoff * (1 << process.restarted.size());
-  process.restarted.push_back(now);
-  process.due = now + backoff;
+  process.due = now + kFirstBackoff * (1 << process.short_lives++);
   const double at_s = std::chrono::duration<double>(now - started_).count();
   restarts_.push_back({process.spec.name, at_s, because});
   spdlog::warn("{} ended with {}; restarting it", process.spec.name, because);

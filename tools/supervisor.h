@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <deque>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -37,11 +36,14 @@ class Supervisor {
  public:
   using Clock = std::chrono::steady_clock;
 
-  static constexpr std::size_t kMaxRestarts = 5;  ///< of one process within kRestartWindow; one more and we give up
-  static constexpr std::chrono::seconds kRestartWindow{10};
-  static constexpr std::chrono::milliseconds kFirstBackoff{50};  ///< doubled by every restart within the window
+  /// Of one process, one after the other, none of which lived as long as this; one more and we give up.
+  static constexpr std::size_t kMaxRestarts = 5;
+  static constexpr std::chrono::seconds kShortLife{10};
+  static constexpr std::chrono::milliseconds kFirstBackoff{50};  ///< doubled by every one of those
+  /// One that left with exit 0 while pictures still go on after so long has not left because the drive ends.
+  static constexpr std::chrono::seconds kLeftAlone{1};
 
-  explicit Supervisor(std::vector<ProcessSpec> specs);
+  explicit Supervisor(std::vector<ProcessSpec> specs, std::chrono::milliseconds short_life = kShortLife);
   ~Supervisor();  ///< ends what still runs
   Supervisor(const Supervisor&) = delete;
   Supervisor& operator=(const Supervisor&) = delete;
@@ -80,9 +82,11 @@ class Supervisor {
     ProcessSpec spec;
     std::optional<ChildProcess> child;
     std::string last_end = "never started";
-    bool done = false;                        ///< ended with exit 0, stays ended
-    std::optional<Clock::time_point> due;     ///< next start
-    std::deque<Clock::time_point> restarted;  ///< within the window
+    bool done = false;                      ///< ended with exit 0, stays ended
+    std::optional<Clock::time_point> left;  ///< when it ended with exit 0, though nobody ends the drive by that
+    std::optional<Clock::time_point> due;   ///< next start
+    Clock::time_point begun{};
+    std::size_t short_lives = 0;  ///< restarts since it last lived long
     std::optional<AliveFile> alive;
     std::optional<Watchdog> watchdog;  ///< of the child that runs
     std::optional<Clock::time_point> looked{};  ///< for signs of life
@@ -91,9 +95,12 @@ class Supervisor {
   Status begin(Watched& process, const std::vector<std::string>& arguments);
   void end_if_hung(Watched& process);
   bool look_after(Watched& process);
+  bool pictures_go_on_since(Clock::time_point then) const;
+  bool restart(Watched& process, const std::string& because);
   bool give_up(int exit_code, std::string why);
 
   std::vector<Watched> processes_;
+  std::chrono::milliseconds short_life_;
   std::vector<Restart> restarts_;
   Clock::time_point started_ = Clock::now();
   int exit_code_ = kExitDone;

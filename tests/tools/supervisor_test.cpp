@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
+#include <string>
 #include <thread>
 
 namespace phare {
@@ -60,6 +62,47 @@ TEST(Supervisor, GivesUpAfterFiveRestarts) {
   EXPECT_EQ(supervisor.restarts()[0].because, "exit 1");
   EXPECT_NE(supervisor.why().find("dynamics ended with exit 1 after 5 restarts"), std::string::npos)
       << supervisor.why();
+}
+
+// However long each takes to die, but for one that has lived well in between.
+TEST(Supervisor, GivesUpOnWhatDiesSlowlyToo) {
+  Supervisor slow({{"dynamics", "/bin/sh", {"-c", "sleep 0.3; exit 1"}}, {"visual-0", "/bin/sleep", {"60"}, true}}, 3s);
+  ASSERT_TRUE(slow.start());
+  EXPECT_TRUE(over_within(slow, 20s));
+  EXPECT_EQ(slow.restarts().size(), Supervisor::kMaxRestarts);
+  Supervisor well({{"dynamics", "/bin/sh", {"-c", "sleep 0.3; exit 1"}}, {"visual-0", "/bin/sleep", {"60"}, true}},
+                  200ms);
+  ASSERT_TRUE(well.start());
+  EXPECT_FALSE(over_within(well, 4s));
+  EXPECT_GT(well.restarts().size(), Supervisor::kMaxRestarts);
+}
+
+// The pictures would wait for it for ever. Where they end as well, as all do that are told to, it stays away.
+TEST(Supervisor, RestartsOneThatLeavesWhileThePicturesGoOn) {
+  const auto file = [](const char* name) {
+    return std::filesystem::path(testing::TempDir()) / (std::string("phare_") + name + std::to_string(getpid()));
+  };
+  for (const bool goes_on : {true, false}) {
+    auto alive = AliveFile::open(file("drawing"));
+    ASSERT_TRUE(alive);
+    Supervisor supervisor(
+        {{"dynamics", "/bin/true", {}}, {"visual-0", "/bin/sleep", {"60"}, true, {}, file("drawing"), HungAfter{}}});
+    ASSERT_TRUE(supervisor.start());
+    const auto until = std::chrono::steady_clock::now() + 2500ms;
+    while (std::chrono::steady_clock::now() < until) {
+      if (goes_on) alive->beat();
+      ASSERT_TRUE(supervisor.step());
+      std::this_thread::sleep_for(5ms);
+    }
+    ASSERT_EQ(supervisor.restarts().empty(), !goes_on);
+    if (goes_on) {
+      EXPECT_EQ(supervisor.restarts()[0].process, "dynamics");
+      EXPECT_EQ(supervisor.restarts()[0].because, "exit 0, while the pictures go on");
+    }
+    supervisor.end_all(2s);
+    EXPECT_EQ(supervisor.ended_badly(), "");
+  }
+  std::filesystem::remove(file("drawing"));
 }
 
 TEST(Supervisor, BadInputIsNotTriedAgain) {
