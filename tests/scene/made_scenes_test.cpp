@@ -1,13 +1,18 @@
-// unit: the line that town, motorway and tunnel are laid along.
+// unit: the line that town, motorway and tunnel are laid along, and what is laid.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <sstream>
 #include <string>
+#include <vector>
 
+#include "config/base/paths.h"
 #include "tools/scene/path.h"
+#include "visual/scene/scene.h"
 
 namespace phare::scene {
 namespace {
@@ -74,6 +79,37 @@ TEST(Path, PiecesCoverItOnce) {
   });
   EXPECT_EQ(at_m, path.end_m());
   EXPECT_EQ(numbered_node("road", 7), "road_007");
+}
+
+/// Places of all corners of a material, in the world.
+std::vector<glm::dvec3> corners_of(const Scene& scene, const std::string& material) {
+  std::vector<glm::dvec3> corners;
+  for (const SceneChunk& chunk : scene.chunks)
+    for (std::uint32_t i = 0; scene.materials[chunk.material].name == material && i < chunk.vertex_count; ++i)
+      corners.push_back(chunk.origin_m + glm::dvec3(scene.vertices[chunk.first_vertex + i].position_m));
+  return corners;
+}
+
+// Where one bends between two corners of the other, one sees through a crack along the road.
+TEST(MadeScenes, TheTunnelsKerbHasItsCornersWhereTheAsphaltHas) {
+  const Result<Scene> tunnel = read_scene(generated_dir() / "scenes/tunnel.glb");
+  ASSERT_TRUE(tunnel) << tunnel.error().text();
+  const std::vector<glm::dvec3> walk = corners_of(*tunnel, "walkway in tunnel"),
+                                asphalt = corners_of(*tunnel, "asphalt in tunnel");
+  constexpr double kSame_m = 1e-3;  // float32 at 2 km and less: 0.1 mm
+  std::size_t feet = 0, alone = 0;
+  for (const glm::dvec3& corner : walk) {
+    // A kerb's foot has its edge right above it.
+    const bool foot = std::ranges::any_of(walk, [&](const glm::dvec3& above) {
+      return glm::distance(glm::dvec2(above), glm::dvec2(corner)) < kSame_m && above.z > corner.z + 0.02;
+    });
+    if (!foot) continue;
+    ++feet;
+    if (std::ranges::none_of(asphalt, [&](const glm::dvec3& at) { return glm::distance(at, corner) < kSame_m; }))
+      ++alone;
+  }
+  EXPECT_GT(feet, 100u);
+  EXPECT_EQ(alone, 0u);
 }
 
 }  // namespace

@@ -47,22 +47,24 @@ void add_banks(Node& node, const Path& path, double begin, double end) {
 /// Strips that know whether they lie under the roof, on a rectangle's or an open road's cross-section.
 void add_piece(Model& model, const Path& path, int number, double begin, double end) {
   const bool covered = inside(0.5 * (begin + end));
+  // What meets along the road bends at the same places, or one would see through between.
+  const double step_m = covered ? 4.0 : 5.0;
   Node& road = model.add(numbered_node("road", number));
   const Material asphalt = covered ? Material::kTunnelRoad : Material::kAsphalt;
   constexpr std::array kAcross_m{-kPaved_m, -1.75, 0.0, 1.75, kPaved_m};
   for (std::size_t i = 0; i + 1 < kAcross_m.size(); ++i)
-    add_strip(road, asphalt, path, begin, end, 5.0, {kAcross_m[i], 0.0}, {kAcross_m[i + 1], 0.0});
+    add_strip(road, asphalt, path, begin, end, step_m, {kAcross_m[i], 0.0}, {kAcross_m[i + 1], 0.0});
   Node& marking = model.add(numbered_node("marking", number));
   const Material paint = covered ? Material::kTunnelPaint : Material::kPaint;
   constexpr double kUp_m = 0.006;
   for (const double t : {-kLane_m, kLane_m})
-    add_strip(marking, paint, path, begin, end, 5.0, {t - 0.06, kUp_m}, {t + 0.06, kUp_m});
+    add_strip(marking, paint, path, begin, end, step_m, {t - 0.06, kUp_m}, {t + 0.06, kUp_m});
   for (const double t : {-0.12, 0.12})  // a double line: no overtaking in a tunnel and before it
-    add_strip(marking, paint, path, begin, end, 5.0, {t - 0.06, kUp_m}, {t + 0.06, kUp_m});
+    add_strip(marking, paint, path, begin, end, step_m, {t - 0.06, kUp_m}, {t + 0.06, kUp_m});
   if (!covered) {
     Node& ground = model.add(numbered_node("ground", number));
-    add_strip(ground, Material::kVerge, path, begin, end, 5.0, {-5.6, -0.05}, {-kPaved_m, 0.0});
-    add_strip(ground, Material::kVerge, path, begin, end, 5.0, {kPaved_m, 0.0}, {5.6, -0.05});
+    add_strip(ground, Material::kVerge, path, begin, end, step_m, {-5.6, -0.05}, {-kPaved_m, 0.0});
+    add_strip(ground, Material::kVerge, path, begin, end, step_m, {kPaved_m, 0.0}, {5.6, -0.05});
     add_banks(ground, path, begin, end);
     return;
   }
@@ -72,9 +74,9 @@ void add_piece(Model& model, const Path& path, int number, double begin, double 
     const auto strip = [&](Node& node, Material material, StripLine inner, StripLine outer) {
       inner.t_m *= side, outer.t_m *= side;
       if (side > 0.0)
-        add_strip(node, material, path, begin, end, 4.0, inner, outer);
+        add_strip(node, material, path, begin, end, step_m, inner, outer);
       else
-        add_strip(node, material, path, begin, end, 4.0, outer, inner);
+        add_strip(node, material, path, begin, end, step_m, outer, inner);
     };
     strip(walk, Material::kTunnelWalk, {kPaved_m, 0.0}, {kPaved_m, kKerb_m});
     strip(walk, Material::kTunnelWalk, {kPaved_m, kKerb_m}, {kWall_m, kKerb_m});
