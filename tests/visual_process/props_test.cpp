@@ -135,6 +135,26 @@ TEST_F(PropsTest, TheWallStandsAt25MetresWithItsAngles) {
   EXPECT_NE(label("V-V"), marks.labels.end());
 }
 
+TEST_F(PropsTest, NothingShinesThroughTheWall) {
+  const World world(nothing_, movers_.meshes());
+  for (const CameraKind kind : {CameraKind::kWall, CameraKind::kDriver}) {
+    ViewInput view = view_of(kind);
+    const auto at = [&](const glm::dvec3& from_eye) {
+      return GlaringLamp{view.camera.eye_m + view.camera.world_from_eye * from_eye, 1.0};
+    };
+    view.glare = {at({60, 1, 0.2}), at({20, 1, 0.2}), at({60, 90, 0.2}), at({-30, 1, 0.2})};
+    const std::vector<GlaringLamp> all = view.glare;
+    props_.add_to(view, kind, lamps_, car_, true, world);
+    const auto shines = [&](std::size_t i) {
+      return std::ranges::count(view.glare, all[i].place_m, &GlaringLamp::place_m) > 0;
+    };
+    EXPECT_EQ(shines(0), kind != CameraKind::kWall) << "behind it";
+    EXPECT_TRUE(shines(1)) << "before it";
+    EXPECT_TRUE(shines(2)) << "beside it";
+    EXPECT_TRUE(shines(3)) << "behind the eye";
+  }
+}
+
 TEST_F(PropsTest, TheFreeEyeTakesThePlaceOfAnother) {
   for (const CameraKind kind : {CameraKind::kDriver, CameraKind::kChase, CameraKind::kOncoming, CameraKind::kWall}) {
     SCOPED_TRACE(kCameraNames[static_cast<std::size_t>(kind)]);

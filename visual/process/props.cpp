@@ -9,6 +9,7 @@
 
 #include "config/base/conventions.h"
 #include "visual/process/traffic.h"
+#include "visual/scene/ray_hit.h"
 
 namespace phare {
 namespace {
@@ -117,6 +118,11 @@ void Props::add_to(ViewInput& view, CameraKind kind, const Lamps& lamps, const V
     glm::dvec3 foot_m = wall.lamps_m + kWall_m * wall.world_from_wall[0];
     foot_m.z = wall.ground_z_m;
     view.moving.push_back({wall_, foot_m, wall.world_from_wall});
+    static const Scene kNothing;
+    World alone(kNothing, *world.meshes());
+    alone.move({view.moving.back()});
+    std::erase_if(view.glare,
+                  [&](const GlaringLamp& lamp) { return occluder(alone, lamp.place_m, view.camera.eye_m); });
   }
   if (!shows_own_car(kind, view.camera, car)) return;
   const PlacedMesh body = own_car(car_, car);
