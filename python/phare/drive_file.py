@@ -172,7 +172,14 @@ def poses(
         x_m=x_m, y_m=y_m, z_m=z_m, yaw_rad=yaw_rad, pitch_rad=pitch_rad, roll_rad=roll_rad, speed_mps=speed_mps,
         yaw_rate_radps=yaw_rate_radps,
     )
-    columns = {name: np.broadcast_to(np.asarray(value, float), times.shape) for name, value in given.items()}
+    columns = {}
+    for name, value in given.items():
+        try:
+            columns[name] = np.broadcast_to(np.asarray(value, float), times.shape)
+        except (TypeError, ValueError) as error:
+            raise BadInput(f"poses: {name}: {error}") from error
+        if not np.isfinite(columns[name]).all():
+            raise BadInput(f"poses: {name} is not finite")
     words = [light] * times.size if isinstance(light, str) else list(light)
     switches = {"off": 0, "position": 1, "low": 2, "high": 3}
     if len(words) != times.size or any(word not in switches for word in words):

@@ -6,7 +6,7 @@ import os
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Sequence
+from typing import Any, Iterable, Sequence
 
 import numpy as np
 import pandas as pd
@@ -58,18 +58,13 @@ def measure(
 
     lamps: Mounted lamps, or their words as --lamp of `phare measure` takes them; a rig file (.toml) stands for all its lamps,
     with `beams` ("low", "high", "fog") of `design`, the car at the origin.
-    points: (n, 3) positions in m, or (n, 6) with the unit normal of the surface; without one it is horizontal, (0, 0, 1).
+    points: positions in m, three numbers each, or six with the unit normal of the surface; without one it is horizontal,
+        (0, 0, 1). A list may hold both.
     reference: float64 on the processor instead of the shader that draws the frame (relative difference below 1e-5).
     each: of each lamp alone besides: shape (points, 1 + lamps), the sum first.
     scene: a glTF file whose shadows count; a lamp that something hides from a point gives it nothing.
     """
-    at = np.atleast_2d(np.asarray(points, float))
-    if at.ndim != 2 or at.shape[1] not in (3, 6):
-        raise BadInput(f"measure: points of shape {np.shape(points)}, expected (n, 3) or (n, 6)")
-    if at.shape[1] == 3:
-        at = np.hstack([at, np.tile([0.0, 0.0, 1.0], (len(at), 1))])
-    if not np.isfinite(at).all():
-        raise BadInput("measure: a point is not finite")
+    at = _points(points)
     if len(at) == 0:
         return np.zeros(0)
     words = _lamp_words(lamps, beams, design)
@@ -84,6 +79,27 @@ def measure(
     columns = [name for name in answer.columns if name.startswith("illuminance_lx")]
     lux = answer[columns].to_numpy(float)
     return lux if each else lux[:, 0]
+
+
+def _points(points: Any) -> np.ndarray:
+    """Positions and normals, of shape (points, 6)."""
+    if not isinstance(points, Iterable) or isinstance(points, (str, bytes)):
+        raise BadInput(f"measure: points are {points!r}, expected (n, 3) or (n, 6)")
+    rows = list(points.to_numpy() if isinstance(points, pd.DataFrame) else points)
+    if rows and all(isinstance(number, (int, float, np.number)) for number in rows):
+        rows = [rows]
+    at = np.zeros((len(rows), 6))
+    for i, row in enumerate(rows):
+        try:
+            numbers = np.asarray(row, float)
+        except (TypeError, ValueError) as error:
+            raise BadInput(f"measure: point {i}: {error}") from error
+        if numbers.shape not in ((3,), (6,)):
+            raise BadInput(f"measure: point {i} is of shape {numbers.shape}, expected three numbers, or six with a normal")
+        if not np.isfinite(numbers).all():
+            raise BadInput(f"measure: point {i} is not finite")
+        at[i] = numbers if len(numbers) == 6 else [*numbers, 0.0, 0.0, 1.0]
+    return at
 
 
 def _lamp_words(lamps: Any, beams: str | Sequence[str], design: str | None) -> list[str]:

@@ -253,6 +253,23 @@ def test_laws_together_see_the_lamps_as_those_before_have_turned_them():
     assert answer.lamps["left"].dimming_01[5] == 0.5 and answer.lamps["left"].yaw_rad == 8 * DEG and answer.light == "high"
 
 
+@pytest.mark.parametrize("wrong", [
+    {"fov_deg": float("nan")}, {"fov_deg": 361.0}, {"delay_s": -0.1}, {"miss_01": 1.5}, {"noise_angle_deg": float("nan")},
+    {"range_m": {"white": 400.0}}, {"range_m": {"white": float("nan"), "red": 1.0, "none": 1.0}},
+    {"camera_m": (1.7, float("inf"), 1.3)},
+])
+def test_sensors_that_cannot_be_are_refused(wrong):
+    with pytest.raises(phare.BadInput, match=f"Sensors: {next(iter(wrong))}"):
+        phare.Sensors(**wrong)
+
+
+def test_a_law_refuses_what_is_no_number():
+    for name in ("margin_deg", "hold_s", "rise_s", "on_above_kmh"):
+        for value in (float("nan"), float("inf"), -1.0):
+            with pytest.raises(phare.BadInput, match=f"GlareFree: {name}"):
+                phare.laws.GlareFree(**{name: value})
+
+
 @pytest.mark.parametrize("answer, why", [
     (phare.Answer(lamps={"middle": phare.LampLight()}), "lamp 'middle': the design has left"),
     (phare.Answer(lamps={"left": phare.LampLight(dimming_01=[1.0, 0.5])}), "2 dimmings .* has 9 sources"),

@@ -122,6 +122,9 @@ def test_poses_refuse_what_is_no_drive():
             phare.poses(times, x_m=0, y_m=0)
     with pytest.raises(phare.BadInput, match="light"):
         phare.poses([0, 1], x_m=0, y_m=0, light="bright")
+    for wrong in (float("nan"), [0.0, float("inf")], [0, 1, 2], "ahead"):
+        with pytest.raises(phare.BadInput, match="poses: yaw_rad"):
+            phare.poses([0, 1], x_m=0, y_m=0, yaw_rad=wrong)
 
 
 def test_the_seal_is_that_of_the_programs():

@@ -32,6 +32,13 @@ def test_points_without_a_normal_lie_on_the_road_and_lamps_add_up(examples):
     assert with_normal[0] == lux[0, 0]
 
 
+def test_points_with_and_without_a_normal_may_be_mixed(examples):
+    lamp = phare.Mounted(examples / "low_beam.ies", 0, 0, 0.7)
+    lux = phare.measure(lamp, [[50, -1.5, 0], [75, -1.5, 0.25, -1, 0, 0]], reference=True)
+    each = [phare.measure(lamp, [point], reference=True)[0] for point in ([50, -1.5, 0], [75, -1.5, 0.25, -1, 0, 0])]
+    assert lux.tolist() == each and phare.measure(lamp, (50, -1.5, 0), reference=True).tolist() == each[:1]
+
+
 def test_a_rig_stands_for_its_lamps():
     rig = phare.shipped_file("rigs/country_road.toml")
     low, both = (phare.measure(rig, [[40, 0, 0]], beams=beams, reference=True) for beams in ("low", ["low", "high"]))
@@ -56,8 +63,11 @@ def test_a_scene_has_shadows(examples, tmp_path):
 
 
 def test_what_cannot_be_measured_is_refused(examples):
-    with pytest.raises(phare.BadInput, match=r"shape \(1, 2\)"):
-        phare.measure(phare.Mounted(examples / "low_beam.ies", 0, 0, 1), [[1, 2]])
+    lamp = phare.Mounted(examples / "low_beam.ies", 0, 0, 1)
+    for points, why in (([[1, 2]], r"point 0 is of shape \(2,\)"), ([[1, 2, 3], [1, 2, float("nan")]], "point 1 is not finite"),
+                        ([[1, 2, 3], "abc"], "point 1"), (7, "points are 7"), ("1,2,3", "points are")):
+        with pytest.raises(phare.BadInput, match=why):
+            phare.measure(lamp, points)
     with pytest.raises(phare.BadInput, match="no lamp"):
         phare.measure([], [[1, 2, 3]])
     with pytest.raises(phare.BadInput, match="nix.ies"):

@@ -15,6 +15,7 @@ from typing import Sequence
 
 import numpy as np
 
+from ..errors import BadInput
 from .messages import CLASSES, CurveAhead, Given, LampOfLaw, RoadUserSeen
 from .road_users import Lane, RoadUser, read_road_users
 
@@ -43,6 +44,19 @@ class Sensors:
     miss_01: float = 0.0
     map_ahead_m: float = 150.0
     seed: int = 1
+
+    def __post_init__(self) -> None:
+        most = {"miss_01": 1.0, "fov_deg": 360.0}
+        others = ("road_users", "range_m", "camera_m", "seed")
+        numbers = {name: value for name, value in vars(self).items() if name not in others}
+        numbers |= {f"range_m of {lights}": value for lights, value in self.range_m.items()}
+        for name, value in numbers.items():
+            if not 0.0 <= value <= most.get(name, math.inf):
+                raise BadInput(f"Sensors: {name} is {value}, expected 0 to {most.get(name, math.inf):g}")
+        if not all(math.isfinite(value) for value in self.camera_m):
+            raise BadInput(f"Sensors: camera_m is {self.camera_m}")
+        if set(self.range_m) != {"white", "red", "none"}:
+            raise BadInput(f"Sensors: range_m has {sorted(self.range_m)}, expected white, red and none")
 
     def users(self) -> list[RoadUser]:
         """The road users, read where a file was named."""

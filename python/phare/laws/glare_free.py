@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from ..control.controller import Controller
 from ..control.messages import Answer, Given, LampLight, LampOfLaw, RoadUserSeen, SourceOfLaw
+from ..errors import BadInput
 
 
 class GlareFree(Controller):
@@ -22,6 +23,11 @@ class GlareFree(Controller):
         self, *, margin_deg: float = 0.7, shade_from_m: float = 0.5, hold_s: float = 0.5, rise_s: float = 0.5,
         predict: bool = True, on_above_kmh: float = 30.0, off_below_kmh: float = 20.0,
     ):
+        numbers = dict(margin_deg=margin_deg, shade_from_m=shade_from_m, hold_s=hold_s, rise_s=rise_s, on_above_kmh=on_above_kmh,
+                       off_below_kmh=off_below_kmh)
+        for name, value in numbers.items():
+            if not (math.isfinite(value) and value >= 0.0):
+                raise BadInput(f"GlareFree: {name} is {value}, expected a number of 0 or more")
         self.margin_rad, self.shade_from_m = math.radians(margin_deg), shade_from_m
         self.hold_s, self.rise_s, self.predict = hold_s, rise_s, predict
         self.on_above_kmh, self.off_below_kmh = on_above_kmh, off_below_kmh

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from ..control.controller import Controller
 from ..control.messages import Answer, Given, LampLight, LampOfLaw
+from ..errors import BadInput
 
 
 class ModuleLimits(Controller):
@@ -25,9 +26,9 @@ class ModuleLimits(Controller):
     ):
         for name, value in [("power_w", power_w), ("source_w", source_w), ("tau_s", tau_s)]:
             if not (math.isfinite(value) and value > 0.0):
-                raise ValueError(f"{name} = {value}: more than 0")
+                raise BadInput(f"{name} = {value}: more than 0")
         if k_per_w is not None and not (k_per_w >= 0.0 and ambient_c < from_c < most_c):
-            raise ValueError("k_per_w >= 0 and ambient_c < from_c < most_c")
+            raise BadInput("k_per_w >= 0 and ambient_c < from_c < most_c")
         self.law, self.power_w, self.source_w = law, power_w, source_w
         self.k_per_w, self.tau_s, self.ambient_c, self.from_c, self.most_c = k_per_w, tau_s, ambient_c, from_c, most_c
         self.power_of: dict[str, float] = {}  # W of each lamp in the newest frame

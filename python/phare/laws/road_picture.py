@@ -12,6 +12,7 @@ import numpy as np
 
 from ..control.controller import Controller
 from ..control.messages import Answer, Given, LampLight, LampOfLaw, lane_aside_m
+from ..errors import BadInput
 
 
 class LaneProjection(Controller):
@@ -30,7 +31,7 @@ class LaneProjection(Controller):
         line_01: float = 1.0, road_01: float = 0.3, above_01: float = 0.6,
     ):
         if columns < 2 or rows < 2 or not (h_deg[0] < h_deg[1] and v_deg[0] < v_deg[1]):
-            raise ValueError("a raster of 2 x 2 pixels at least, its angles ascending")
+            raise BadInput("a raster of 2 x 2 pixels at least, its angles ascending")
         self.lamp, self.columns, self.rows = lamp, columns, rows
         self.from_m, self.to_m, self.half_width_m, self.line_m = from_m, to_m, half_width_m, line_m
         self.shares = [round(255 * share) for share in (line_01, road_01, above_01)]
@@ -99,9 +100,9 @@ class SymbolProjection(LaneProjection):
         super().__init__(lamp, line_m=line_m, **words)
         self.symbol = arrow() if symbol is None else np.asarray(symbol, float)
         if self.symbol.ndim != 2 or min(self.symbol.shape) < 2 or not ((self.symbol >= 0) & (self.symbol <= 1)).all():
-            raise ValueError("a symbol is a table of shares, 0 to 1, of 2 x 2 at least")
+            raise BadInput("a symbol is a table of shares, 0 to 1, of 2 x 2 at least")
         if not (at_m > 0 and length_m > 0 and width_m > 0):
-            raise ValueError("at_m, length_m and width_m are more than 0")
+            raise BadInput("at_m, length_m and width_m are more than 0")
         self.at_m, self.length_m, self.width_m = at_m, length_m, width_m
 
     def draw(self, given: Given, place: LampOfLaw) -> np.ndarray:
