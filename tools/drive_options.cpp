@@ -108,10 +108,11 @@ void settle_out(DriveOptions& options) {
                options.out);
 }
 
-/// Nobody has named a drive, and nobody sits at the window: that of the scene, recorded where it is. A moment that is
-/// to be explained is of a recording or of none.
+/// Nobody has named a drive, and nobody sits at the window: that of the scene, recorded where it is, but for a road
+/// that a car has to answer. A moment that is to be explained is of a recording or of none.
 void take_demo_drive(const Rig& rig, DriveOptions& options) {
-  if (const auto recording = demo_recording(rig, config_path(""))) {
+  const bool poses_do = options.car_and_road.empty() || !options.level.empty() || options.explain;
+  if (const auto recording = demo_recording(rig, config_path("")); recording && poses_do) {
     options.drive = *recording;
   } else if (const auto script = demo_script(rig, config_path(""))) {
     if (!options.explain) options.script = *script;
@@ -160,6 +161,11 @@ Result<Rig> prepare_drive(DriveOptions& options) {
         "model does (--script)",
         options.drive, options.level);
   }
+  if (!options.drive.empty() && !options.closed_loop && !options.car_and_road.empty() && !options.explain)
+    return Error{options.car_and_road.front(),
+                 "means nothing to recorded poses; with --closed-loop the car answers the recorded controls"};
+  if (options.explain && !options.explain_cost && options.picture.frames > 0)
+    return Error{"--frames", "says with --explain how often --cost draws the moment, and --cost is not given"};
   for (std::string* file : {&options.drive, &options.script, &options.log, &options.dbc}) {
     if (file->empty()) continue;
     if (!fs::is_regular_file(*file)) return Error{*file, "no such file"};
@@ -213,8 +219,8 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
   command.add_flag(
       "--law", options->law,
       "A control law of your own leads the lamps (docs/control-law.md); in lockstep each frame waits for it");
-  command.add_option("--out", options->out, "Folder for pictures and report [headless: out]");
-  command.add_option("--record", options->record, "Record the drive into this file (pcap)");
+  auto* out = command.add_option("--out", options->out, "Folder for pictures and report [headless: out]");
+  auto* record = command.add_option("--record", options->record, "Record the drive into this file (pcap)");
   command.add_flag("--closed-loop", options->closed_loop,
                    "With --drive: replay the controls and let the car answer, instead of the poses");
   command.add_option("--level", options->level, "Model of the car, instead of the rig's")
@@ -236,12 +242,12 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
       ->capture_default_str();
   command.add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
       ->check(CLI::Range(1024, 65000));
-  command.add_flag("--single-file", options->single_file,
-                   "index.html holds its pictures and its video: one file that can be mailed");
+  auto* single_file = command.add_flag("--single-file", options->single_file,
+                                       "index.html holds its pictures and its video: one file that can be mailed");
   command.add_flag("--overwrite", options->overwrite, "Put this drive in the place of another one in --out");
   command.add_flag("--open-bus", options->open_bus,
                    "No key of the run: anyone on this machine may speak on the bus (docs/send.md)");
-  command.add_flag("--json", options->json, "Print the report as JSON");
+  auto* json = command.add_flag("--json", options->json, "Print the report as JSON");
   auto* explain = command.add_flag("--explain", options->explain,
                                    "No drive: print each effect with its level and the reason, for the moment "
                                    "--still-at of the drive, or for --light and --fog; no device is asked");
@@ -257,7 +263,7 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
                 "With --explain: draw that moment on the device, without a window, --frames times [30], and print "
                 "passes, bytes and ms of each effect too")
       ->needs(explain);
-  explain->excludes(script)->excludes(log);
+  for (CLI::Option* of_a_drive : {script, log, out, record, single_file, json}) explain->excludes(of_a_drive);
   auto* budget =
       command
           .add_option("--budget-ms", options->budget_ms,
