@@ -34,13 +34,16 @@ inline CLI::Validator number_within(double least, double most) {
       range);
 }
 
-/// Before a program parses: each of its options of type FLOAT, and of its subcommands', refuses nan, inf and 0x10.
-/// CLI11 reads them as numbers, and nan passes every comparison of a range.
+/// Before a program parses: each of its options of type FLOAT, and of its subcommands', refuses nan, inf and 0x10, each
+/// of type UINT what is below 0. CLI11 reads them as numbers: nan passes every comparison of a range, and -1 is 2^64 - 1.
 inline void take_finite_numbers_only(CLI::App& app) {
-  for (CLI::Option* option : app.get_options())
+  for (CLI::Option* option : app.get_options()) {
     if (option->get_type_name().starts_with("FLOAT"))
       option->check([](const std::string& text) { return finite_number(text) ? "" : text + " is not a finite number"; },
                     "");
+    if (option->get_type_name().starts_with("UINT"))
+      option->check([](const std::string& text) { return text.starts_with('-') ? text + " is less than 0" : ""; }, "");
+  }
   for (CLI::App* subcommand : app.get_subcommands(nullptr)) take_finite_numbers_only(*subcommand);
 }
 
