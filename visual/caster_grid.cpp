@@ -198,12 +198,16 @@ void CasterGrid::add(const CastBy& cast, const glm::vec2& half_sides, std::size_
       }
   };
   const auto raise_by = [&](const SeenTriangle& seen, const Cells& cells) {
+    constexpr int kNarrow = 3;  // columns that are raised sooner than it is told which of them the triangle leaves out
+    const bool narrow = cells.end_column - cells.first_column <= kNarrow;
     for (int row = cells.first_row; row < cells.end_row; ++row) {
       const float low = rows[static_cast<std::size_t>(row)], high = rows[static_cast<std::size_t>(row) + 1];
-      const glm::vec2 span = seen.across_between(low, high);
-      if (span.x > span.y) continue;
-      const int first = std::max(cells.first_column, column_of(span.x)),
-                end = std::min(cells.end_column, column_of(span.y) + 1);
+      int first = cells.first_column, end = cells.end_column;
+      if (!narrow) {
+        const glm::vec2 span = seen.across_between(low, high);
+        if (span.x > span.y) continue;
+        first = std::max(first, column_of(span.x)), end = std::min(end, column_of(span.y) + 1);
+      }
       const float in_row = seen.per_m.q * (seen.per_m.q > 0.0f ? high : low) + seen.per_m.r;
       const float* const side = &columns[seen.per_m.p > 0.0f ? 1 : 0];
       float* const most = &per_m_[static_cast<std::size_t>(row) * kColumns];
