@@ -66,9 +66,10 @@ TEST(Supervisor, GivesUpAfterFiveRestarts) {
 
 // However long each takes to die, but for one that has lived well in between.
 TEST(Supervisor, GivesUpOnWhatDiesSlowlyToo) {
-  Supervisor slow({{"dynamics", "/bin/sh", {"-c", "sleep 0.3; exit 1"}}, {"visual-0", "/bin/sleep", {"60"}, true}}, 3s);
+  // Six lives and the waits between take 13 s: longer than one of them may.
+  Supervisor slow({{"dynamics", "/bin/sh", {"-c", "sleep 1.6; exit 1"}}, {"visual-0", "/bin/sleep", {"60"}, true}});
   ASSERT_TRUE(slow.start());
-  EXPECT_TRUE(over_within(slow, 20s));
+  EXPECT_TRUE(over_within(slow, 40s));
   EXPECT_EQ(slow.restarts().size(), Supervisor::kMaxRestarts);
   Supervisor well({{"dynamics", "/bin/sh", {"-c", "sleep 0.3; exit 1"}}, {"visual-0", "/bin/sleep", {"60"}, true}},
                   200ms);
