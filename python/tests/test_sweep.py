@@ -66,6 +66,7 @@ def test_a_list_is_as_it_stands(tmp_path):
     ("[vary]\naim = [1]\n[[measure]]\nat = [1, 2, 3]\n", "has no name"), ("rank = 'best'\n[vary]\naim = [1]\n", "rank 'best'"),
     ("kind = 'latin-hypercube'\n[vary]\naim = [1]\n", "samples"), ("[vary]\nsensor_delay_s = [0.1]\n", "give law"),
     ("kind = 'latin-hypercube'\nsamples = 2\n[vary]\naim = { from = 2, to = 1 }\n", "expected a list or"), ("[vary\n", "Expected"),
+    ("rank_by = 'edge'\n[vary]\naim = [1]\n", "rank_by 'edge' is no column of the table; there are aim, frames"),
 ])
 def test_what_is_wrong_with_a_plan_is_said(tmp_path, text, why):
     with pytest.raises(phare.BadInput, match=f"plan.toml: .*{why}"):

@@ -23,6 +23,8 @@ WORDS = (
     "aim", "level", "friction", "roughness", "frames", "size", "law", "sensor_delay_s", "sensor_noise_deg", "sensor_miss_01",
     "sensor_seed", "sensor_red_range_m",
 )
+#: Numbers that a job's row has of its drive (phare.sweep.job); some of them where the job calls for them.
+FIGURES = ("frames", "driven_s", "driven_m", "suspension_pitch_most_deg", "picture_mean", "high_share", "glare_s", "glare_of_s")
 _TOP = ("name", "kind", "seed", "samples", "rank_by", "rank", "fixed", "vary", "run", "measure")
 _KINDS = ("grid", "list", "latin-hypercube")
 
@@ -110,7 +112,11 @@ def read_plan(file: str | os.PathLike[str]) -> Plan:
     if rank not in ("most", "least"):
         raise BadInput(f"{file}: rank {rank!r}: most or least is best")
     rank_by = str(document.get("rank_by", names[0] if names else ""))
-    return Plan(here.resolve(), str(document.get("name", here.stem)), jobs, measures, rank_by, rank == "most")
+    plan = Plan(here.resolve(), str(document.get("name", here.stem)), jobs, measures, rank_by, rank == "most")
+    columns = [*names, *plan.axes(), *FIGURES]
+    if rank_by and rank_by not in columns:
+        raise BadInput(f"{file}: rank_by {rank_by!r} is no column of the table; there are {', '.join(columns)}")
+    return plan
 
 
 def _only(table: dict[str, Any], known: tuple[str, ...], place: str) -> None:
