@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "shaders/lamps.h"
+#include "visual/clipped_triangle.h"
 
 namespace phare {
 namespace {
@@ -24,23 +25,7 @@ constexpr Lanes kLane{0, 1, 2, 3, 4, 5, 6, 7};
 // All of it is compiled twice, once for processors that have eight lanes.
 #define PHARE_WITHIN [[gnu::always_inline]] inline
 
-/// What of a triangle is at least so far forward: up to four corners.
-struct Polygon {
-  std::array<glm::dvec3, 4> corners;
-  std::size_t count = 0;
-};
-
-Polygon ahead_of(double near_m, const std::array<glm::dvec3, 3>& triangle) {
-  Polygon polygon;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const glm::dvec3 &a = triangle[i], &b = triangle[(i + 1) % 3];
-    if (a.x >= near_m) polygon.corners[polygon.count++] = a;
-    if ((a.x < near_m) == (b.x < near_m)) continue;
-    const glm::dvec3 at = a + (b - a) * ((near_m - a.x) / (b.x - a.x));
-    polygon.corners[polygon.count++] = {near_m, at.y, at.z};
-  }
-  return polygon;
-}
+using Polygon = ClippedTriangle<glm::dvec3>;
 
 /// A side of a polygon: where it crosses a row.
 struct Side {
@@ -83,7 +68,7 @@ class Drawing {
                         bool both_sides) const {
     const std::array<glm::dvec3, 3> triangle{a, b, c};
     Polygon polygon{{triangle[0], triangle[1], triangle[2]}, 3};
-    if (beside) polygon = ahead_of(shader::kShadowNear_m, triangle);
+    if (beside) polygon = ahead_of<glm::dvec3>(shader::kShadowNear_m, triangle);
     if (polygon.count < 3) return;
     // 1 over the way forward is even over the lamp's view.
     const glm::dvec3 normal = glm::cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);

@@ -11,6 +11,7 @@
 
 #include "config/base/on_all_cores.h"
 #include "shaders/lamps.h"
+#include "visual/clipped_triangle.h"
 
 namespace phare {
 namespace {
@@ -35,24 +36,6 @@ struct Bounds {
   glm::vec2 least() const { return {right, low}; }
   glm::vec2 most() const { return {left, high}; }
 };
-
-/// What of a triangle that reaches past the lamp lies before a plane across its axis: none, three or four corners.
-struct Clipped {
-  std::array<glm::vec3, 4> corners{};
-  std::size_t count = 0;
-};
-
-Clipped ahead_of(float near_m, const std::array<glm::vec3, 3>& triangle) {
-  Clipped clipped;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const glm::vec3 &a = triangle[i], &b = triangle[(i + 1) % 3];
-    if (a.x >= near_m) clipped.corners[clipped.count++] = a;
-    if ((a.x < near_m) == (b.x < near_m)) continue;
-    const glm::vec3 at = a + (b - a) * ((near_m - a.x) / (b.x - a.x));
-    clipped.corners[clipped.count++] = {near_m, at.y, at.z};
-  }
-  return clipped;
-}
 
 /// A map to the tangents `half_sides` holds nothing of a triangle that is nearer: what lies far beside the axis comes
 /// into it far ahead.
@@ -229,7 +212,7 @@ void CasterGrid::add(const CastBy& cast, const glm::vec2& half_sides, std::size_
   };
   const auto add_one = [&](const CastBounds& bounds, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     if (!bounds.beside) return add_ahead(bounds, a, b, c);
-    const Clipped clipped = ahead_of(begins_m({a, b, c}, half_sides), {a, b, c});
+    const auto clipped = ahead_of<glm::vec3>(begins_m({a, b, c}, half_sides), {a, b, c});
     for (std::size_t i = 2; i < clipped.count; ++i) {
       Bounds of;
       for (const std::size_t corner : {std::size_t{0}, i - 1, i}) of.add(clipped.corners[corner]);

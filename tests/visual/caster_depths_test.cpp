@@ -99,7 +99,7 @@ Drawn expect_depths(const DepthPicture& picture, const std::vector<std::array<gl
           most = std::max(most, std::min(depth < 0.0 ? 1.0 : depth, shader::kShadowNear_m / nearest_m));
         }
       }
-      const double is = drawn.texels[i], room = 1e-6 + 1e-5 * is;
+      const double is = drawn.texels[i], room = 1e-6 + 1e-5 * is;  // as the header says: float32 adds up
       if (is < least - room || is > most + room) ++wrong;
       if (is > 0.0) ++drawn.held;
       // Both add up a row's depths in their own way.
