@@ -69,7 +69,7 @@ std::string ControlClient::silence(const Open& open) const {
   for (const std::string& name : processes_of(concerned(open.control), bus_.channels()))
     if (!open.heard.contains(name)) silent.insert(name);
   return joined(silent) + " on " + address_ + (silent.size() > 1 ? " do" : " does") + " not answer (" + joined(alive_) +
-         (alive_.size() > 1 ? " do)" : " does)");
+         (alive_.size() > 1 ? " do)" : " does)") + "; what was sent may still take effect";
 }
 
 void ControlClient::settle(Open& open) const {

@@ -194,6 +194,7 @@ class DriveRun {
   std::unique_ptr<Recorder> recorder_;
   std::optional<Supervisor> supervisor_;
   fs::path made_;  ///< the first folder that was not there before
+  FolderClaim claim_;
   DriveFacts facts_;
   PicturesNotKept not_kept_;
   AuditsFailed audits_;
@@ -262,6 +263,9 @@ Status DriveRun::make_room() {
     made_ = first_missing(options_.out);
     fs::create_directories(options_.out, failed);
     if (failed) return Error{options_.out, failed.message()};
+    auto claim = claim_folder(options_.out);
+    if (!claim) return claim.error();
+    claim_ = std::move(*claim);
     remove_earlier_output(options_.out, facts_.process_names);
     remove_earlier_rig(options_.out, given_rig_);
   }
@@ -420,6 +424,8 @@ int drive(DriveOptions& options) {
   if (options.explain) return explain_drive(options);
   const std::string out = options.out, record = options.record;
   for (int number = 1;; ++number) {
+    if (number > 1 && !options.overwrite)  // the window is open: beside what is there
+      while (!no_recording_at(numbered(record, number)).ok()) ++number;
     options.out = numbered(out, number);
     options.record = numbered(record, number);
     std::optional<Wish> wish;

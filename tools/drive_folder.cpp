@@ -1,7 +1,13 @@
 #include "tools/drive_folder.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -9,6 +15,16 @@
 namespace phare {
 
 namespace fs = std::filesystem;
+
+Result<FolderClaim> claim_folder(const fs::path& out) {
+  const int folder = open(out.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return Error{out.string(), std::strerror(errno)};
+  const FolderClaim claim(nullptr, [folder](void*) { close(folder); });
+  // A file system without locks has none of other drives either.
+  if (flock(folder, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    return Error{out.string(), "another drive is filling it"};
+  return claim;
+}
 
 void remove_half_written(const fs::path& out, const std::vector<std::string>& process_names) {
   std::error_code ignored;

@@ -2,10 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "config/base/result.h"
+
 namespace phare {
+
+/// While one of these lives, no other drive begins to fill the folder, of whichever program run.
+using FolderClaim = std::shared_ptr<void>;
+/// Error when another drive is filling it, which has to be there.
+Result<FolderClaim> claim_folder(const std::filesystem::path& out);
 
 /// A process that is killed while it writes its counts leaves <name>.json.tmp<process id>.
 void remove_half_written(const std::filesystem::path& out, const std::vector<std::string>& process_names);

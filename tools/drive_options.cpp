@@ -17,6 +17,7 @@
 #include "tools/commands.h"
 #include "tools/demo_drive.h"
 #include "tools/drive_folder.h"
+#include "tools/recorder.h"
 
 namespace phare {
 namespace {
@@ -175,6 +176,9 @@ Result<Rig> prepare_drive(DriveOptions& options) {
   inputs.insert(inputs.end(), {options.drive, options.script, options.log, options.dbc, options.picture.traffic});
   inputs.insert(inputs.end(), options.car_and_road.begin(), options.car_and_road.end());
   if (const Status apart = check_inputs(inputs, {options.record}); !apart) return apart.error();
+  if (!options.overwrite)
+    if (const Status none = no_recording_at(options.record); !none)
+      return Error{none.error().place, none.error().reason + " without --overwrite"};
   if (options.headless && options.out.empty()) options.out = "out";
   if (!options.out.empty()) options.out = fs::absolute(options.out).lexically_normal().string();
   settle_out(options);
@@ -220,7 +224,8 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
       "--law", options->law,
       "A control law of your own leads the lamps (docs/control-law.md); in lockstep each frame waits for it");
   auto* out = command.add_option("--out", options->out, "Folder for pictures and report [headless: out]");
-  auto* record = command.add_option("--record", options->record, "Record the drive into this file (pcap)");
+  auto* record = command.add_option("--record", options->record,
+                                    "Record the drive into this file (pcap); one that is there needs --overwrite");
   command.add_flag("--closed-loop", options->closed_loop,
                    "With --drive: replay the controls and let the car answer, instead of the poses");
   command.add_option("--level", options->level, "Model of the car, instead of the rig's")
@@ -244,7 +249,8 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
       ->check(CLI::Range(1024, 65000));
   auto* single_file = command.add_flag("--single-file", options->single_file,
                                        "index.html holds its pictures and its video: one file that can be mailed");
-  command.add_flag("--overwrite", options->overwrite, "Put this drive in the place of another one in --out");
+  command.add_flag("--overwrite", options->overwrite,
+                   "Put this drive in the place of another one in --out and --record");
   command.add_flag("--open-bus", options->open_bus,
                    "No key of the run: anyone on this machine may speak on the bus (docs/send.md)");
   auto* json = command.add_flag("--json", options->json, "Print the report as JSON");

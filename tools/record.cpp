@@ -24,9 +24,7 @@ struct RecordOptions {
 
 int record(const RecordOptions& options) {
   if (const Status apart = check_inputs({options.rig_file}, {options.out}); !apart) return bad_input(apart.error());
-  std::error_code failed;
-  if (std::filesystem::is_regular_file(options.out, failed) && !std::filesystem::is_empty(options.out, failed))
-    return bad_input({options.out, "is there already; a recording is not written over"});
+  if (const Status none = no_recording_at(options.out); !none) return bad_input(none.error());
   auto rig = read_rig(options.rig_file);
   if (!rig) return bad_input(rig.error());
   if (options.port_base != 0) rig->port_base = options.port_base;

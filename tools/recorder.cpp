@@ -2,6 +2,13 @@
 
 namespace phare {
 
+Status no_recording_at(const std::filesystem::path& out) {
+  std::error_code unreadable;
+  if (std::filesystem::is_regular_file(out, unreadable) && !std::filesystem::is_empty(out, unreadable))
+    return Error{out.string(), "is there already; a recording is not written over"};
+  return Done{};
+}
+
 Result<std::unique_ptr<Recorder>> Recorder::open(const Rig& rig) {
   auto bus = Bus::open(rig, Role::kRecorder);
   if (!bus) return bus.error();

@@ -13,6 +13,9 @@
 
 namespace phare {
 
+/// Error where a drive file with anything in it is: what was recorded is not lost to what comes next.
+Status no_recording_at(const std::filesystem::path& out);
+
 class Recorder {
  public:
   /// Binds the recorder's port: what comes from now on waits there.

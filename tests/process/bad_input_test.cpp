@@ -189,6 +189,8 @@ TEST_F(BadInput, OfADrive) {
       {"frames not a number", "phare drive --frames many", "--frames"},
       {"two sources", drive + "--drive bad.pcap --script bad_script.toml", "--script"},
       {"out is a file", "phare drive --headless --out file --port-base " + std::to_string(port_base()), "file"},
+      {"drive: record over a recording", "phare drive --headless --frames 2 --record bad.pcap",
+       "bad.pcap: is there already"},
       {"record nowhere", drive + "--record /nonexistent/x.pcap", "/nonexistent/x.pcap: cannot be written"},
       {"record over its drive", drive + "--drive bad.pcap --record ./bad.pcap", "it would be overwritten"},
       {"record over its script", drive + "--script bad_script.toml --record bad_script.toml",

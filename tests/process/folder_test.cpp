@@ -1,8 +1,11 @@
 // process: what a drive does to the folders of others, what it says when it could not keep what it was to keep, and how
 // it ends when it is cut short.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -79,6 +82,20 @@ TEST_F(Folder, WhatAnyProcessCannotReadLeavesTheDriveBeforeAsItLay) {
     EXPECT_TRUE(everything_in("out") == before) << wrong;
     EXPECT_TRUE(contents_of(folder_ / "evening.pcap") == recorded) << wrong;
   }
+}
+
+TEST_F(Folder, WhatAnotherDriveIsFillingIsLeftToIt) {
+  fs::create_directory(folder_ / "out");
+  const int other = open((folder_ / "out").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  ASSERT_EQ(flock(other, LOCK_EX | LOCK_NB), 0);
+  std::ofstream(folder_ / "out" / "report.json") << "half wr";
+  const Said said = drive_here("--frames 3 --overwrite --out out");
+  EXPECT_EQ(said.code, 2);
+  EXPECT_NE(said.err.find("out: another drive is filling it"), std::string::npos) << said.err;
+  EXPECT_EQ(everything_in("out").size(), 1u);
+  close(other);
+  EXPECT_EQ(drive_here("--frames 3 --overwrite --out out").code, 0);
+  EXPECT_GT(everything_in("out").size(), 8u);
 }
 
 // The demo that is driven where none is named is a drive like any other: a car that was asked for drives it.
