@@ -93,6 +93,21 @@ TEST(RayTree, WhatAPointLiesInIsLeftThroughItsBack) {
   EXPECT_EQ(seen_from_both.left_at_m(inside, {0, 0, 1}, 0.5), 0.0);
 }
 
+TEST(RayTree, ARayInAFaceOfABoxMeetsWhatItsEdgeMeets) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double tip : {0.0, 2.0}) {  // the edge lies in the high face, in the low one
+      const auto turned = [&](double x, double y, double z) {
+        const std::array<double, 3> at{x, y, z};
+        return glm::dvec3(at[(3 - axis) % 3], at[(4 - axis) % 3], at[(5 - axis) % 3]);
+      };
+      const RayTree tree(
+          std::vector<RayTree::Triangle>{{turned(5, 0, tip), turned(0, -1, 1 - tip), turned(0, 1, 1 - tip)}});
+      const glm::dvec3 here = turned(0, 0, 1), there = turned(10, 0, 1);
+      EXPECT_TRUE(tree.blocked(here, there, 0.0, 0.0)) << axis << ' ' << tip;
+      EXPECT_TRUE(tree.blocked(there, here, 0.0, 0.0)) << axis << ' ' << tip;
+    }
+}
+
 TEST(RayTree, NothingIsFree) {
   EXPECT_FALSE(RayTree().blocked({0, 0, 0}, {1, 0, 0}, 0.0, 0.0));
   EXPECT_FALSE(RayTree(Scene{}).blocked({0, 0, 0}, {1, 0, 0}, 0.0, 0.0));

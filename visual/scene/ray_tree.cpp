@@ -117,10 +117,10 @@ bool RayTree::each_met(const glm::dvec3& from_m, const glm::dvec3& along, double
     const Box& box = boxes_[at];
     double enter_m = near_m, leave_m = most_m;
     for (int axis = 0; axis < 3; ++axis) {
-      const double a = (box.low[axis] - from_m[axis]) * inverse[axis],
-                   b = (box.high[axis] - from_m[axis]) * inverse[axis];
-      // NaN, on a face of a box that the ray lies in: the comparison leaves what there is.
-      enter_m = std::max(enter_m, std::min(a, b)), leave_m = std::min(leave_m, std::max(a, b));
+      const bool back = inverse[axis] < 0.0;
+      // NaN, on a face of a box that the ray lies in: as the second argument it leaves what there is.
+      enter_m = std::max(enter_m, ((back ? box.high : box.low)[axis] - from_m[axis]) * inverse[axis]);
+      leave_m = std::min(leave_m, ((back ? box.low : box.high)[axis] - from_m[axis]) * inverse[axis]);
     }
     return Entered{at, enter_m > leave_m ? std::numeric_limits<double>::infinity() : enter_m};
   };
