@@ -75,6 +75,12 @@ Result<Renderer> renderer_of(const RendererOptions& drawing, const Desk& desk) {
   return renderer;
 }
 
+/// Error where a moment that is asked for comes after the end of the drive.
+Status moment_is_within(double at_s, double ends_s) {
+  if (at_s <= ends_s) return Done{};
+  return Error{"--still-at", fmt::format("{:g} s is after the end of the drive, {:.1f} s", at_s, ends_s)};
+}
+
 /// The device that would draw, and the moment of the options; a line for each effect. With --cost it does draw.
 int explain_and_leave(const VisualOptions& options, const Rig& rig, Lamps& lamps, const Desk& desk,
                       const MomentScene& from, const std::shared_ptr<const FixedLight>& fixed) {
@@ -87,8 +93,7 @@ int explain_and_leave(const VisualOptions& options, const Rig& rig, Lamps& lamps
     if (!drive) return refuse(drive.error());
     const double ends_s = drive->duration.seconds();
     const double at_s = options.still_at_s < 0.0 ? 0.2 * ends_s : options.still_at_s;
-    if (at_s > ends_s)
-      return refuse({"--still-at", fmt::format("{:g} s is after the end of the drive, {:.1f} s", at_s, ends_s)});
+    if (const Status within = moment_is_within(at_s, ends_s); !within) return refuse(within.error());
     Result<AskedMoment> asked = moment_of_drive(*drive, at_s);
     if (!asked) return refuse(asked.error());
     moment = std::move(*asked);
@@ -187,10 +192,17 @@ int draw_channel(VisualOptions options) {
     return explain_and_leave(
         options, *rig, *lamps, desk,
         {channel, *scene, *movers, *props, *traffic, RoadLine(lane, rig->scene_file), *fixed_light}, fixed_light);
+  if (options.lockstep && options.frames > 0)
+    if (const Status within = moment_is_within(
+            options.still_at_s, static_cast<double>(options.frames) / static_cast<double>(rig->frame_rate_hz));
+        !within)
+      return refuse(within.error());
   LampReplay lamps_then;
   if (!options.drive_file.empty()) {
     const Result<Drive> drive = read_drive(options.drive_file);
     if (!drive) return refuse(drive.error());
+    if (const Status within = moment_is_within(options.still_at_s, drive->duration.seconds()); !within)
+      return refuse(within.error());
     if (options.still_at_s < 0.0) options.still_at_s = 0.2 * drive->duration.seconds();
     lamps_then = LampReplay(*drive);
   }
