@@ -111,6 +111,7 @@ Status set_cameras(Desk& desk, std::string_view value, const DeskContext& contex
   } else if (value != "none") {
     const bool add = value.starts_with("add ");
     if (add) eyes = desk.cameras, value.remove_prefix(4);
+    std::vector<std::string> named;
     for (bool more = true; more;) {
       const std::size_t end = std::min(value.find(';'), value.size());
       more = end < value.size();
@@ -119,6 +120,9 @@ Status set_cameras(Desk& desk, std::string_view value, const DeskContext& contex
       if (!add && words.size() == 1)
         return Error{"",
                      words.front() + ": where is it? add " + words.front() + " takes the place of the present view"};
+      if (!words.empty() && std::ranges::count(named, words.front()) > 0)
+        return Error{"", words.front() + " is there twice"};
+      named.insert(named.end(), words.begin(), words.begin() + (words.empty() ? 0 : 1));
       if (const Status put = put_eye(eyes, words, context.seen_from.value_or(desk.free_eye)); !put) return put.error();
     }
   }

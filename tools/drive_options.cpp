@@ -223,7 +223,8 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
   command.add_flag(
       "--law", options->law,
       "A control law of your own leads the lamps (docs/control-law.md); in lockstep each frame waits for it");
-  auto* out = command.add_option("--out", options->out, "Folder for pictures and report [headless: out]");
+  auto* out = command.add_option("--out", options->out, "Folder for pictures and report [headless: out]")
+                  ->check([](const std::string& name) { return name.empty() ? "names no folder" : ""; });
   auto* record = command.add_option("--record", options->record,
                                     "Record the drive into this file (pcap); one that is there needs --overwrite");
   command.add_flag("--closed-loop", options->closed_loop,

@@ -272,6 +272,8 @@ TEST_F(BadInput, OfTheOtherCommands) {
       {"drive: the moment of a script", "phare drive --explain --script x.toml", "--script"},
       {"drive: a moment of no drive", "phare drive --headless --explain --light low --still-at 30",
        "--still-at: is a moment of a drive"},
+      {"drive: a folder without a name", "phare drive --headless --lockstep --frames 2 --out ''",
+       "--out: names no folder"},
       {"drive: stills after its frames", "phare drive --headless --lockstep --frames 6 --still-at 0.2",
        "--still-at: 0.2 s is after the end of the drive"},
       {"drive: stills after the drive", "phare drive --headless --still-at 1000",

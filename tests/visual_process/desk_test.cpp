@@ -178,6 +178,8 @@ TEST(Desk, HasCamerasOfOnesOwn) {
   EXPECT_EQ(desk.camera, CameraKind::kFree) << "where it was";
   for (int i = 0; i < 7; ++i) EXPECT_EQ(say("cameras add c" + std::to_string(i)), "");
   EXPECT_EQ(say("cameras add c7"), "cameras: at most 8 cameras");
+  EXPECT_EQ(say("cameras a car 0 0 2 0 0; b car 0 0 2 0 0; a car 9 0 2 0 0"), "cameras: a is there twice");
+  EXPECT_EQ(desk.cameras.size(), 8u) << "nothing is lost";
   EXPECT_EQ(say("cameras none"), "");
   EXPECT_TRUE(desk.cameras.empty());
 }
