@@ -112,7 +112,15 @@ void PictureOptions::add_to(CLI::App& app) {
   declare(app.add_option_function<std::vector<std::string>>(
               "--set",
               [this](const std::vector<std::string>& settings) {
-                for (const std::string& words : settings) desk.push_back(setting_of(words));
+                for (const std::string& words : settings) {
+                  const DeskCommand command = setting_of(words);
+                  // Before --camera, wherever it stands, which may name one of them.
+                  const auto at = command.setting != "cameras"
+                                      ? desk.end()
+                                      : std::ranges::find_if(
+                                            desk, [](const DeskCommand& each) { return each.setting != "cameras"; });
+                  desk.insert(at, command);
+                }
               },
               "SETTING=VALUE of the picture, as phare control set has them (docs/control.md); repeat for more"))
       ->allow_extra_args(false)

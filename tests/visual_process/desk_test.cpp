@@ -441,6 +441,15 @@ TEST(Desk, IsHandedOnAsItWasGiven) {
   parse(handed, second);
   EXPECT_EQ(first.desk.size(), 4u);
   EXPECT_EQ(first.desk, second.desk);
+
+  // A camera may be named that another option makes, whatever their order.
+  PictureOptions own, handed_on;
+  parse(parse({"--camera", "roof", "--set", "cameras=roof car 0 0 2 0 -5"}, own), handed_on);
+  for (const PictureOptions* each : {&own, &handed_on}) {
+    Desk desk;
+    for (const DeskCommand& command : each->desk) EXPECT_TRUE(apply(desk, command)) << command.setting;
+    EXPECT_EQ(desk.own_camera, "roof");
+  }
 }
 
 TEST(Desk, EveryKeyOfThePictureSetsSomethingThereIs) {
