@@ -256,8 +256,6 @@ Result<std::optional<int>> DriveRun::start() {
 }
 
 Status DriveRun::make_room() {
-  if (recorder_)
-    if (const Status created = recorder_->create(options_.record); !created) return created;
   if (kept()) {
     std::error_code failed;
     made_ = first_missing(options_.out);
@@ -266,6 +264,13 @@ Status DriveRun::make_room() {
     auto claim = claim_folder(options_.out);
     if (!claim) return claim.error();
     claim_ = std::move(*claim);
+  }
+  if (recorder_)
+    if (const Status created = recorder_->create(options_.record); !created) {
+      if (kept()) remove_made(options_.out, made_);
+      return created;
+    }
+  if (kept()) {
     remove_earlier_output(options_.out, facts_.process_names);
     remove_earlier_rig(options_.out, given_rig_);
   }

@@ -125,14 +125,19 @@ fs::path first_missing(fs::path out) {
   return missing;
 }
 
+void remove_made(fs::path out, const fs::path& made) {
+  std::error_code ignored;
+  for (; !made.empty(); out = out.parent_path()) {
+    fs::remove(out, ignored);  // only when empty
+    if (out == made) break;
+  }
+}
+
 void remove_traces(const fs::path& out, const fs::path& made, const std::vector<std::string>& process_names) {
   remove_earlier_output(out, process_names);
   std::error_code ignored;
-  fs::remove(out / "frames", ignored);  // only when empty, as those below
-  for (fs::path folder = out; !made.empty(); folder = folder.parent_path()) {
-    fs::remove(folder, ignored);
-    if (folder == made) break;
-  }
+  fs::remove(out / "frames", ignored);  // only when empty
+  remove_made(out, made);
 }
 
 }  // namespace phare

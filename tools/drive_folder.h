@@ -30,6 +30,9 @@ std::string numbered(const std::string& path, int number);
 /// The topmost folder that has to be made for `out`; empty when it is there.
 std::filesystem::path first_missing(std::filesystem::path out);
 
+/// The folders from `out` up to `made`, as long as they are empty.
+void remove_made(std::filesystem::path out, const std::filesystem::path& made);
+
 /// After bad input: no count, no picture, and no folder from `made` down, which was not there before.
 void remove_traces(const std::filesystem::path& out, const std::filesystem::path& made,
                    const std::vector<std::string>& process_names);

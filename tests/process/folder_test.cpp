@@ -89,13 +89,22 @@ TEST_F(Folder, WhatAnotherDriveIsFillingIsLeftToIt) {
   const int other = open((folder_ / "out").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   ASSERT_EQ(flock(other, LOCK_EX | LOCK_NB), 0);
   std::ofstream(folder_ / "out" / "report.json") << "half wr";
-  const Said said = drive_here("--frames 3 --overwrite --out out");
+  std::ofstream(folder_ / "evening.pcap") << "recorded";
+  const Said said = drive_here("--frames 3 --overwrite --out out --record evening.pcap");
   EXPECT_EQ(said.code, 2);
   EXPECT_NE(said.err.find("out: another drive is filling it"), std::string::npos) << said.err;
   EXPECT_EQ(everything_in("out").size(), 1u);
+  EXPECT_EQ(contents_of(folder_ / "evening.pcap"), "recorded");
   close(other);
   EXPECT_EQ(drive_here("--frames 3 --overwrite --out out").code, 0);
   EXPECT_GT(everything_in("out").size(), 8u);
+}
+
+TEST_F(Folder, ARecordThatCannotBeMadeLeavesNoFolder) {
+  const Said said = drive_here("--frames 3 --out new/out --record nowhere/evening.pcap");
+  EXPECT_EQ(said.code, 2);
+  EXPECT_NE(said.err.find("nowhere/evening.pcap: "), std::string::npos) << said.err;
+  EXPECT_FALSE(fs::exists(folder_ / "new"));
 }
 
 // The demo that is driven where none is named is a drive like any other: a car that was asked for drives it.

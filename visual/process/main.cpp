@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 
 #include "config/base/remedies.h"
@@ -192,20 +193,19 @@ int draw_channel(VisualOptions options) {
     return explain_and_leave(
         options, *rig, *lamps, desk,
         {channel, *scene, *movers, *props, *traffic, RoadLine(lane, rig->scene_file), *fixed_light}, fixed_light);
-  if (options.lockstep && options.frames > 0)
-    if (const Status within = moment_is_within(
-            options.still_at_s, static_cast<double>(options.frames) / static_cast<double>(rig->frame_rate_hz));
-        !within)
-      return refuse(within.error());
   LampReplay lamps_then;
+  const double asked_s = options.still_at_s;
+  double ends_s = std::numeric_limits<double>::infinity();  // as far as that is known
+  if (options.lockstep && options.frames > 0)
+    ends_s = static_cast<double>(options.frames) / static_cast<double>(rig->frame_rate_hz);
   if (!options.drive_file.empty()) {
     const Result<Drive> drive = read_drive(options.drive_file);
     if (!drive) return refuse(drive.error());
-    if (const Status within = moment_is_within(options.still_at_s, drive->duration.seconds()); !within)
-      return refuse(within.error());
+    ends_s = std::min(ends_s, drive->duration.seconds());
     if (options.still_at_s < 0.0) options.still_at_s = 0.2 * drive->duration.seconds();
     lamps_then = LampReplay(*drive);
   }
+  if (const Status within = moment_is_within(asked_s, ends_s); !within) return refuse(within.error());
 
   std::optional<Window> window;
   if (!options.headless) {
