@@ -120,9 +120,10 @@ Status set_cameras(Desk& desk, std::string_view value, const DeskContext& contex
       if (!add && words.size() == 1)
         return Error{"",
                      words.front() + ": where is it? add " + words.front() + " takes the place of the present view"};
-      if (!words.empty() && std::ranges::count(named, words.front()) > 0)
-        return Error{"", words.front() + " is there twice"};
-      named.insert(named.end(), words.begin(), words.begin() + (words.empty() ? 0 : 1));
+      if (!words.empty()) {
+        if (std::ranges::count(named, words.front()) > 0) return Error{"", words.front() + " is there twice"};
+        named.push_back(words.front());
+      }
       if (const Status put = put_eye(eyes, words, context.seen_from.value_or(desk.free_eye)); !put) return put.error();
     }
   }
