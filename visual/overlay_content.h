@@ -66,6 +66,7 @@ struct OverlayMarks {
     double x_01 = 0.0, y_01 = 0.0;
     std::string text;
     OverlayColour colour{};
+    double room_01 = 0.0;  ///< of the width: letters shrink until it fits; 0: as wide as it comes
   };
   std::vector<Box> boxes{};  ///< below the lines, in order
   std::vector<Line> lines{};

@@ -427,6 +427,25 @@ TEST_F(RendererTest, ALineWiderThanThePictureGoesOnBelow) {
   EXPECT_GT(letters(25, 36), 50u);
 }
 
+TEST_F(RendererTest, AMarksLettersShrinkUntilTheyFit) {
+  FrameInput input = driver_view();
+  input.want_image = true;
+  const auto letters_right_of = [&](double x_01) {
+    renderer->draw(input);
+    const Image8 told = renderer->read_image();
+    std::size_t bright = 0;
+    for (int y = 0; y < told.height_px; ++y)
+      for (int x = static_cast<int>(std::ceil(x_01 * told.width_px)); x < told.width_px; ++x)
+        bright += told.rgba[static_cast<std::size_t>((y * told.width_px + x) * 4)] > 150;
+    return bright;
+  };
+  input.marks.labels = {{0.1, 0.2, "no probe and no point is set in this drive", {255, 255, 255}}};
+  EXPECT_GT(letters_right_of(0.4), 10u);
+  input.marks.labels.front().room_01 = 0.3;
+  EXPECT_GT(letters_right_of(0.3), 10u);
+  EXPECT_EQ(letters_right_of(0.4), 0u);
+}
+
 TEST_F(RendererTest, AuditedPixelsAgreeWithDouble) {
   const IntensityTable table = cut_off_table(PhotometricType::kA, GammaAxis::kGamma0);
   renderer->set_beam(0, image_of(table));

@@ -112,6 +112,29 @@ void draw_wheel(Pen& pen, double x, double side) {
   ring(Material::kChrome, 0.05, 0.0, 0.879, 0.881, 8);
 }
 
+/// Lens in a dark housing, on the edge of the bonnet from above the grille round to the wing.
+void draw_headlamp(Pen& pen, double side) {
+  // Of two sections of the body so high over their edge at the shoulder, outward from it and inward.
+  const auto patch = [&](Material m, double from_x, double to_x, double inward, double outward, double over) {
+    const auto across = [&](double x) {
+      const Section s = body_section(x);
+      const std::vector<dvec3> ring = body_ring(x, s.half_width, s.sill, s.shoulder, s.deck);
+      const dvec3 wing = ring[4], shoulder = ring[5], bonnet = ring[6];
+      const dvec3 out = {0.5 * over, 0.0, over};
+      std::array<dvec3, 3> line{glm::mix(shoulder, bonnet, inward) + out, shoulder + out + dvec3(0.0, over, 0.0),
+                                glm::mix(shoulder, wing, outward) + out + dvec3(0.0, over, 0.0)};
+      for (dvec3& at : line) at.y *= side;
+      return line;
+    };
+    const auto rear = across(from_x), front = across(to_x);
+    for (std::size_t i = 0; i + 1 < rear.size(); ++i)
+      side > 0.0 ? pen.quad(m, rear[i], front[i], front[i + 1], rear[i + 1])
+                 : pen.quad(m, rear[i + 1], front[i + 1], front[i], rear[i]);
+  };
+  patch(Material::kDarkPlastic, 3.425, 3.538, 0.85, 0.95, 0.004);
+  patch(Material::kChrome, 3.445, 3.53, 0.6, 0.7, 0.009);
+}
+
 }  // namespace
 
 void draw_car(Pen pen, Material paint) {
@@ -140,15 +163,21 @@ void draw_car(Pen pen, Material paint) {
     pillar({-0.36, 0.76, 0.95}, {-0.04, 0.63, 1.35}, 0.07);
     for (const double x : kAxles_m) draw_wheel(pen, x, side);
     pen.ellipsoid(paint, {1.98, side * 0.98, 0.96}, {0.08, 0.12, 0.07}, 4, 7);  // mirror
-    // Tail lamp: a housing with its retroreflector; headlamp.
+    // Tail lamp: a housing with its retroreflector.
     pen.box(Material::kSheetRed, {-1.015, side * 0.62 - 0.14, 0.72}, {-0.84, side * 0.62 + 0.14, 0.86});
     const double y = side * 0.60;
     pen.quad(Material::kReflectorRed, {-1.02, y + 0.12, 0.735}, {-1.02, y - 0.12, 0.735}, {-1.02, y - 0.12, 0.80},
              {-1.02, y + 0.12, 0.80});
-    pen.ellipsoid(Material::kChrome, {3.36, side * 0.60, 0.61}, {0.14, 0.16, 0.075}, 5, 9);
+    draw_headlamp(pen, side);
     pen.box(Material::kDarkPlastic, {0.45, side * 0.87, 0.20}, {2.17, side * 0.895, 0.28});
   }
-  // Bumper, number plate.
+  // Grille, bumper, number plates.
+  const double nose = kBody.back().x;
+  pen.box(Material::kDarkPlastic, {nose - 0.02, -0.40, 0.50}, {nose + 0.004, 0.40, 0.55});
+  pen.box(Material::kDarkPlastic, {nose - 0.02, -0.50, 0.35}, {nose + 0.003, 0.50, 0.395});
+  pen.box(Material::kDarkPlastic, {nose - 0.02, -0.28, 0.385}, {nose + 0.008, 0.28, 0.49});
+  pen.quad(Material::kPlate, {nose + 0.01, -0.26, 0.39}, {nose + 0.01, 0.26, 0.39}, {nose + 0.01, 0.26, 0.485},
+           {nose + 0.01, -0.26, 0.485});
   pen.box(Material::kDarkPlastic, {-1.04, -0.70, 0.36}, {-0.85, 0.70, 0.46});
   pen.box(Material::kDarkPlastic, {-1.015, -0.28, 0.555}, {-0.93, 0.28, 0.685});
   pen.quad(Material::kPlate, {-1.02, 0.26, 0.565}, {-1.02, -0.26, 0.565}, {-1.02, -0.26, 0.675}, {-1.02, 0.26, 0.675});

@@ -132,9 +132,11 @@ void draw_marks_of(const Pen& pen, const ImVec2& picture, const OverlayMarks& ma
   const float width_px = std::max(1.0f, 1.4f * picture.y / kReferenceHeight_px);
   for (const OverlayMarks::Line& line : marks.lines)
     pen.list.AddLine(at(line.x0_01, line.y0_01), at(line.x1_01, line.y1_01), packed(line.colour, 200), width_px);
-  Pen letters = pen;
-  letters.size_px *= 0.85f;
   for (const OverlayMarks::Label& label : marks.labels) {
+    Pen letters = pen;
+    letters.size_px *= 0.85f;
+    const float room_px = static_cast<float>(label.room_01) * picture.x - 3.0f;  // beside the shade
+    if (label.room_01 > 0.0) letters.size_px *= std::clamp(room_px / letters.width(label.text), 0.1f, 1.0f);
     const ImVec2 begin = at(label.x_01, label.y_01);
     const float x = begin.x + 2.0f, y = begin.y - 0.55f * letters.size_px;
     letters.write(x + 1.0f, y + 1.0f, {10, 12, 16}, label.text);

@@ -34,7 +34,7 @@ void ProbePlot::add(SimTime now, std::vector<std::optional<double>> lx) {
 void ProbePlot::draw(OverlayMarks& picture, std::size_t probes) const {
   if (rows_.empty()) return;
   picture.boxes.push_back(kBox);
-  constexpr double kEdge_01 = 0.012, kNames_01 = 0.075;
+  constexpr double kEdge_01 = 0.012, kNames_01 = 0.095;
   const double left = kBox.left_01 + kEdge_01, width = kBox.width_01 - kEdge_01 - kNames_01;
   const double top = kBox.top_01 + 0.045, height = kBox.height_01 - 0.09;
   const std::size_t values = rows_.back().lx.size();
@@ -48,9 +48,10 @@ void ProbePlot::draw(OverlayMarks& picture, std::size_t probes) const {
   constexpr OverlayColour kFaint{120, 125, 130};
   for (const double share : {0.0, 0.5, 1.0})
     picture.lines.push_back({left, y_of(share * full_lx), left + width, y_of(share * full_lx), kFaint});
+  const double room = kBox.width_01 - kEdge_01;
   picture.labels.push_back(
-      {left, top - 0.022, values == 0 ? "no probe and no point is set" : fmt::format("{:g} lx", full_lx), {}});
-  picture.labels.push_back({left, top + height + 0.018, fmt::format("{:g} s ago", kSpan_s), {}});
+      {left, top - 0.022, values == 0 ? "no probe and no point is set" : fmt::format("{:g} lx", full_lx), {}, room});
+  picture.labels.push_back({left, top + height + 0.018, fmt::format("{:g} s ago", kSpan_s), {}, room});
   for (std::size_t k = 0; k < values; ++k) {
     const OverlayColour ink = kInks[k % kInks.size()];
     for (std::size_t i = 1; i < rows_.size(); ++i)
@@ -63,8 +64,9 @@ void ProbePlot::draw(OverlayMarks& picture, std::size_t probes) const {
     if (k >= rows_that_fit) continue;
     const std::string name = k < probes ? std::to_string(k + 1) : "point";
     const std::optional<double>& now = rows_.back().lx[k];
-    picture.labels.push_back({left + width + 0.008, top + kRow_01 * static_cast<double>(k),
-                              name + (now ? fmt::format(": {:.3g}", *now) : ": -"), ink});
+    constexpr double kGap_01 = 0.008;
+    picture.labels.push_back({left + width + kGap_01, top + kRow_01 * static_cast<double>(k),
+                              name + (now ? fmt::format(": {:.3g}", *now) : ": -"), ink, kNames_01 - kGap_01});
   }
 }
 

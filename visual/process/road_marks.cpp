@@ -240,7 +240,9 @@ template <typename ColourAt>
 void draw_column(OverlayMarks& picture, const char* title, const ColourAt& colour_at, const std::vector<Tick>& ticks) {
   constexpr double kLeft_01 = 0.94, kWidth_01 = 0.014, kTop_01 = 0.12, kHeight_01 = 0.47;  // above the right mirror
   constexpr int kBoxes = 64;
-  picture.boxes.push_back({kLeft_01 - 0.008, kTop_01 - 0.055, 0.065, kHeight_01 + 0.075, {30, 36, 42}, 155});
+  constexpr double kEnd_01 = 0.997;
+  picture.boxes.push_back(
+      {kLeft_01 - 0.008, kTop_01 - 0.055, kEnd_01 - kLeft_01 + 0.008, kHeight_01 + 0.075, {30, 36, 42}, 155});
   for (int i = 0; i < kBoxes; ++i) {
     const Colour colour = colour_at(1.0 - (i + 0.5) / kBoxes);
     picture.boxes.push_back({kLeft_01,
@@ -250,11 +252,12 @@ void draw_column(OverlayMarks& picture, const char* title, const ColourAt& colou
                              {colour.red, colour.green, colour.blue},
                              255});
   }
-  picture.labels.push_back({kLeft_01, kTop_01 - 0.028, title, {}});
+  picture.labels.push_back({kLeft_01, kTop_01 - 0.028, title, {}, kEnd_01 - kLeft_01});
   for (const Tick& tick : ticks) {
     const double y = kTop_01 + kHeight_01 * (1.0 - tick.share_01);
     picture.lines.push_back({kLeft_01, y, kLeft_01 + kWidth_01 + 0.004, y, {255, 255, 255}});
-    picture.labels.push_back({kLeft_01 + kWidth_01 + 0.007, y, tick.text, {}});
+    constexpr double kText_01 = kLeft_01 + kWidth_01 + 0.007;
+    picture.labels.push_back({kText_01, y, tick.text, {}, kEnd_01 - kText_01});
   }
 }
 
@@ -323,7 +326,7 @@ void put_into(OverlayMarks& marks, const PicturePart& part) {
     box.width_01 *= part.width_01, box.height_01 *= part.height_01;
   }
   for (OverlayMarks::Line& line : marks.lines) x(line.x0_01), y(line.y0_01), x(line.x1_01), y(line.y1_01);
-  for (OverlayMarks::Label& label : marks.labels) x(label.x_01), y(label.y_01);
+  for (OverlayMarks::Label& label : marks.labels) x(label.x_01), y(label.y_01), label.room_01 *= part.width_01;
 }
 
 void frame_part(OverlayMarks& picture, const PicturePart& part) {

@@ -119,6 +119,7 @@ void keep_to_a(OverlayMarks& marks, const Desk& desk, const Lamps& shown, SimTim
 void mark_versus(OverlayMarks& marks, const Desk& desk, const Lamps& shown, const Versus& versus, SimTime now) {
   const Lamps& other = *versus.lamps();
   constexpr double kName_01 = 0.89;  // above the instruments
+  constexpr double kHalf_01 = 0.48, kWhole_01 = 0.97;
   constexpr OverlayColour kInk{255, 225, 160};
   std::string b = "B: " + other.design().name;
   if (desk.versus_aligned && versus.aligned_rad())
@@ -127,17 +128,17 @@ void mark_versus(OverlayMarks& marks, const Desk& desk, const Lamps& shown, cons
   else if (desk.versus_aligned)
     b += ", not aligned: no cut-off";
   if (desk.compare == Compare::kDifference || desk.compare == Compare::kRatio) {
-    marks.labels.push_back({0.015, kName_01, "A: " + shown.design().name + "   " + b, kInk});
+    marks.labels.push_back({0.015, kName_01, "A: " + shown.design().name + "   " + b, kInk, kWhole_01});
     return;
   }
   if (desk.compare == Compare::kFlicker) {
     const bool turn = Versus::has_turn(desk, now);
-    marks.labels.push_back({0.015, kName_01, turn ? b : "A: " + shown.design().name, kInk});
+    marks.labels.push_back({0.015, kName_01, turn ? b : "A: " + shown.design().name, kInk, kWhole_01});
     return;
   }
   marks.lines.push_back({0.5, 0.0, 0.5, 1.0, kInk});
-  marks.labels.push_back({0.015, kName_01, "A: " + shown.design().name, kInk});
-  marks.labels.push_back({0.508, kName_01, b, kInk});
+  marks.labels.push_back({0.015, kName_01, "A: " + shown.design().name, kInk, kHalf_01});
+  marks.labels.push_back({0.508, kName_01, b, kInk, kHalf_01});
 }
 
 }  // namespace phare
