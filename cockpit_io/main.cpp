@@ -118,8 +118,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& wrong) {
-    std::fprintf(stderr, "phare-cockpit: %s (see --help)\n", wrong.what());
-    return kExitBadInput;
+    return fail("phare-cockpit", {"", std::string(wrong.what()) + " (see --help)"});
   }
   spdlog::set_default_logger(spdlog::stderr_color_mt("cockpit"));
   spdlog::set_level(spdlog::level::from_str(options.log_level));

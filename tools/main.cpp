@@ -10,6 +10,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "config/base/fail.h"
 #include "config/base/paths.h"
 #include "config/finite_numbers.h"
 #include "config/formats/toml_table.h"
@@ -21,8 +22,7 @@
 namespace phare {
 
 int bad_input(const Error& error) {
-  std::fprintf(stderr, "phare: %s\n", error.text().c_str());
-  return kExitBadInput;
+  return fail("phare", error);
 }
 
 std::string config_path(const std::string& below) {
@@ -106,8 +106,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& wrong) {
-    std::fprintf(stderr, "phare: %s (see --help)\n", wrong.what());
-    return kExitBadInput;
+    return bad_input({"", std::string(wrong.what()) + " (see --help)"});
   }
   return chosen();
 }

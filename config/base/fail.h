@@ -9,9 +9,24 @@
 
 namespace phare {
 
+/// As it is up to 4,000 bytes. Longer, where a message cites a file's value that goes on and on: its beginning, how
+/// much is left out, and its end. Characters of UTF-8 stay whole.
+inline std::string shortened(std::string_view text) {
+  constexpr std::size_t kMost = 4000, kBegin = 3000, kEnd = 500;
+  if (text.size() <= kMost) return std::string(text);
+  const auto character_at = [&](std::size_t i) {
+    while (i > 0 && (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80) --i;
+    return i;
+  };
+  const std::size_t begin = character_at(kBegin), end = character_at(text.size() - kEnd);
+  return std::string(text.substr(0, begin)) + " … " + std::to_string(end - begin) + " bytes … " +
+         std::string(text.substr(end));
+}
+
 /// Control characters, of ASCII and those of two bytes in UTF-8, as \xNN: what a message cites out of a file shall not
-/// move the terminal's cursor, and it stays one line.
-inline std::string printable(std::string_view text) {
+/// move the terminal's cursor, and it stays one line, shortened.
+inline std::string printable(std::string_view all) {
+  const std::string text = shortened(all);
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto c = static_cast<unsigned char>(text[i]);

@@ -74,6 +74,11 @@ class BadInput : public testing::Test {
     write("short.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6\n");
     write("bad.glb", std::string("glTF\2\0\0\0\377\0\0\0junk", 16));
     write("bad.gltf", "{\"asset\": {\"version\": \"2.0\"},\n oops");
+    write_rig("rig_short_uri.toml", text, "\"generated/scenes/country_road.glb\"", "\"short_uri.gltf\"");
+    write("short_uri.gltf",
+          "{\"asset\": {\"version\": \"2.0\"}, \"buffers\": [{\"byteLength\": 90000, \"uri\": "
+          "\"data:application/octet-stream;base64," +
+              std::string(40'000, 'A') + "\"}]}");
     write("bad_car.toml", "name = \"x\"\nmass_kg = -3\n");
     write("bad_cockpit.toml", "[source]\nkind = \"telepathy\"\n");
     write("bad.pcap", "not a capture\n");
@@ -123,6 +128,8 @@ class BadInput : public testing::Test {
       EXPECT_NE(said.find(given.says), std::string::npos)
           << given.name << ": expected " << given.says << "\ngot " << said;
       EXPECT_TRUE(said.starts_with("phare")) << said;
+      EXPECT_LT(said.size(), 5000u) << given.name;
+      EXPECT_EQ(said.find('\x1b'), std::string::npos) << given.name;
       for (const std::string& file : files()) EXPECT_TRUE(before.contains(file)) << given.name << " left " << file;
       std::printf("%-24s %s", given.name.c_str(), said.c_str());
     }
@@ -138,6 +145,8 @@ TEST_F(BadInput, OfADrive) {
   const std::string stalk = " --cockpit " + kConfig + "cockpits/phare_stalk.toml";
   expect_refused({
       {"no rig", drive + "--rig absent.toml", "absent.toml: no such file"},
+      {"rig with a terminal's words", drive + R"-(--rig "$(printf 'a\033[31m.toml')")-",
+       R"(a\x1b[31m.toml: no such file)"},
       {"rig not TOML", drive + "--rig rig_syntax.toml", "rig_syntax.toml:2: "},
       {"rig with unknown key", drive + "--rig rig_unknown_key.toml", "no key \"scnee\"; did you mean \"scene\"?"},
       {"rig off loopback", drive + "--rig rig_off_loopback.toml", "rig_off_loopback.toml:"},
@@ -151,6 +160,7 @@ TEST_F(BadInput, OfADrive) {
       {"IES with a word", drive + "--rig rig_bad_ies.toml", "bad.ies:7: a candela value is not a number: \"oops\""},
       {"no glTF", drive + "--rig rig_no_glb.toml", "absent.glb: no such file"},
       {"GLB cut off", drive + "--rig rig_bad_glb.toml", "bad.glb: "},
+      {"glTF, a data URI short", drive + "--rig rig_short_uri.toml", "short_uri.gltf: "},
       {"glTF not JSON", drive + "--rig rig_bad_gltf.toml", "line 2"},
       {"vehicle", drive + "--rig rig_bad_car.toml", "bad_car.toml:"},
       {"cockpit file", drive + "--rig rig_bad_cockpit.toml", "bad_cockpit.toml:2: "},

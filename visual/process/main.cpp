@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 
+#include "config/base/fail.h"
 #include "config/base/remedies.h"
 #include "net/drive_file.h"
 #include "net/run_key.h"
@@ -24,8 +25,7 @@ namespace {
 using namespace phare;
 
 int refuse(const Error& error) {
-  std::fprintf(stderr, "phare-visual: %s\n", error.text().c_str());
-  return kExitBadInput;
+  return fail("phare-visual", error);
 }
 
 nlohmann::json describe(const Lamps& lamps) {

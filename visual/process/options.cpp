@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "config/base/fail.h"
 #include "config/base/log_levels.h"
 #include "config/cockpit.h"
 #include "config/finite_numbers.h"
@@ -76,8 +77,7 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   } catch (const CLI::Success& help) {
     return {std::nullopt, app.exit(help)};
   } catch (const CLI::ParseError& wrong) {
-    std::fprintf(stderr, "phare-visual: %s (see --help)\n", wrong.what());
-    return {std::nullopt, kExitBadInput};
+    return {std::nullopt, fail("phare-visual", {"", std::string(wrong.what()) + " (see --help)"})};
   }
   if (!light.empty())
     options.explain_light =
