@@ -8,6 +8,7 @@
 
 #include "cockpit_io/can_frame.h"
 #include "cockpit_io/text_scanner.h"
+#include "config/base/input_files.h"
 
 namespace phare {
 
@@ -154,9 +155,7 @@ Result<CandumpLog> parse_candump(std::string_view text, const std::string& name)
 }
 
 Result<CandumpLog> read_candump(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return Error{file.string(), "no such file"};
-  if (!std::filesystem::is_regular_file(file, ignored)) return Error{file.string(), "is not a file"};
+  if (const std::string why = why_no_file(file); !why.empty()) return Error{file.string(), why};
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return Error{file.string(), "cannot be read"};
   const std::string text{std::istreambuf_iterator<char>(stream), {}};

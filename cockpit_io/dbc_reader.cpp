@@ -10,6 +10,7 @@
 #include "cockpit_io/dbc_lines.h"
 #include "cockpit_io/dbc_multiplexors.h"
 #include "cockpit_io/text_scanner.h"
+#include "config/base/input_files.h"
 
 namespace phare {
 
@@ -385,9 +386,7 @@ Result<Dbc> parse_dbc(std::string_view text, const std::string& name) {
 }
 
 Result<Dbc> read_dbc(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return Error{file.string(), "no such file"};
-  if (!std::filesystem::is_regular_file(file, ignored)) return Error{file.string(), "is not a file"};
+  if (const std::string why = why_no_file(file); !why.empty()) return Error{file.string(), why};
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return Error{file.string(), "cannot be read"};
   const std::string text{std::istreambuf_iterator<char>(stream), {}};

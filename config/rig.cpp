@@ -281,9 +281,9 @@ Result<RigReading> read_rig_text(std::string_view text, const std::filesystem::p
 
 Status check_rig_files(const Rig& rig) {
   const auto missing = [&](const std::filesystem::path& path, const std::string& what) -> std::optional<Error> {
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
-    return Error{path.string(), "no such file; it is " + what + " of " + rig.file.string()};
+    const std::string why = why_no_file(path);
+    if (why.empty()) return std::nullopt;
+    return Error{path.string(), why + "; it is " + what + " of " + rig.file.string()};
   };
   if (auto error = missing(rig.scene_file, "the scene")) return *error;
   if (!rig.traffic_file.empty())

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "config/base/input_files.h"
 #include "config/formats/toml_table.h"
 
 namespace phare {
@@ -31,10 +32,9 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 
 Result<std::vector<std::vector<double>>> read_csv_columns(const std::filesystem::path& file,
                                                           std::span<const std::string> names) {
+  if (const std::string why = why_no_file(file); !why.empty()) return Error{file.string(), why};
   std::ifstream stream(file);
-  std::error_code ignored;
-  if (!stream || !std::filesystem::is_regular_file(file, ignored))
-    return Error{file.string(), "no such file, or it cannot be read"};
+  if (!stream) return Error{file.string(), "cannot be read"};
   std::vector<std::vector<double>> columns(names.size());
   std::vector<std::size_t> places;
   std::string line;

@@ -169,7 +169,7 @@ Result<Rig> prepare_drive(DriveOptions& options) {
     return Error{"--frames", "says with --explain how often --cost draws the moment, and --cost is not given"};
   for (std::string* file : {&options.drive, &options.script, &options.log, &options.dbc}) {
     if (file->empty()) continue;
-    if (!fs::is_regular_file(*file)) return Error{*file, "no such file"};
+    if (const std::string why = why_no_file(*file); !why.empty()) return Error{*file, why};
     *file = fs::absolute(*file).string();
   }
   std::vector<std::string> inputs = files_of(*rig);

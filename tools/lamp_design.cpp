@@ -10,6 +10,7 @@
 #include <numbers>
 #include <set>
 
+#include "config/base/input_files.h"
 #include "config/spectrum.h"
 #include "visual/photometry/bench/lamp_aim.h"
 #include "visual/photometry/bench/lint.h"
@@ -443,9 +444,8 @@ Result<LampChoice> parse_lamp_choice(const std::string& flag, LampFunction funct
     (side == 0 ? choice.left : choice.right) = fs::absolute(*name).lexically_normal();
   }
   for (const fs::path& path : {choice.left, choice.right}) {
-    std::error_code ignored;
-    if (fs::is_directory(path, ignored)) return wrong(path.string() + " is a folder; a photometry file is expected");
-    if (!fs::is_regular_file(path, ignored)) return wrong(path.string() + ": no such file");
+    if (const std::string why = why_no_file(path); !why.empty())
+      return wrong(path.string() + ": " + why + "; a photometry file is expected");
   }
   if (choice.two_files && choice.left == choice.right)
     return wrong("the same file is given twice; one file for both sides is FILE alone");

@@ -9,6 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "config/base/input_files.h"
 #include "tools/csv_columns.h"
 
 namespace phare {
@@ -176,8 +177,7 @@ std::optional<std::string> after(const std::string& text, const std::string& beg
 Result<std::vector<ReferenceCase>> read_reference_table(const std::filesystem::path& given) {
   const std::filesystem::path table = std::filesystem::absolute(given).lexically_normal();
   const std::filesystem::path manifest_file = table.parent_path() / "manifest.json";
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(table, ignored)) return Error{table.string(), "no such file"};
+  if (const std::string why = why_no_file(table); !why.empty()) return Error{table.string(), why};
   std::ifstream stream(manifest_file);
   if (!stream) return Error{manifest_file.string(), "no such file; it tells the lamps of " + table.filename().string()};
   const std::string name = table.stem().string();

@@ -7,17 +7,18 @@
 #include <set>
 
 #include "cockpit_io/dbc.h"
+#include "config/base/input_files.h"
 #include "config/cockpit.h"
 #include "config/road/lane.h"
 #include "config/street_lamps.h"
 #include "config/traffic/road_users.h"
 #include "config/vehicle.h"
 #include "tools/lamp_design.h"
+#include "visual/fixed_light.h"
 #include "visual/photometry/bench/lamp_aim.h"
 #include "visual/photometry/bench/lint.h"
 #include "visual/photometry/bench/table_end.h"
 #include "visual/photometry/readers/read_lamp.h"
-#include "visual/fixed_light.h"
 #include "visual/scene/scene.h"
 
 namespace phare {
@@ -52,9 +53,9 @@ class Checker {
   /// False where nothing is named: that is told already.
   bool is_there(const fs::path& file, const std::string& what) {
     if (file.empty()) return false;
-    std::error_code ignored;
-    if (fs::is_regular_file(file, ignored)) return true;
-    problem({file.string(), "no such file; it is " + what});
+    const std::string why = why_no_file(file);
+    if (why.empty()) return true;
+    problem({file.string(), why + "; it is " + what});
     return false;
   }
 
@@ -149,11 +150,10 @@ class Checker {
 
   bool readable(const SourceConfig& source, const DesignConfig& design, const LampConfig& lamp) {
     if (source.file.empty()) return false;
-    std::error_code ignored;
-    if (!fs::is_regular_file(source.file, ignored)) {
+    if (const std::string why = why_no_file(source.file); !why.empty()) {
       if (bad_files_.insert(source.file).second)
-        problem({source.file.string(),
-                 fmt::format("no such file; it is lamp \"{}\", design \"{}\"", lamp.name, design.name)});
+        problem(
+            {source.file.string(), fmt::format("{}; it is lamp \"{}\", design \"{}\"", why, lamp.name, design.name)});
       return false;
     }
     if (const Status read = tables_.add(source); !read) {

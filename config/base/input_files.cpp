@@ -17,6 +17,14 @@ std::string input_name(const std::filesystem::path& name) {
   return is_standard_input(name) ? "standard input" : name.string();
 }
 
+std::string why_no_file(const std::filesystem::path& name) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(name, ignored);
+  if (std::filesystem::is_regular_file(status)) return "";
+  if (std::filesystem::is_directory(status)) return "is a folder";
+  return std::filesystem::exists(status) ? "is not a regular file" : "no such file";
+}
+
 Result<std::string> read_input_bytes(const std::filesystem::path& name, std::uintmax_t limit) {
   // One reader looks what kind of file it is, another reads it: what came in stays for both.
   static std::optional<std::string> came_in;
@@ -26,7 +34,7 @@ Result<std::string> read_input_bytes(const std::filesystem::path& name, std::uin
   const auto failed = [&](const std::string& why) { return Error{place, "cannot be read: " + why}; };
   std::error_code code;
   const bool standard = is_standard_input(name);
-  if (!standard && std::filesystem::is_directory(name, code)) return Error{place, "is a directory"};
+  if (!standard && std::filesystem::is_directory(name, code)) return Error{place, "is a folder"};
   const int descriptor = standard ? STDIN_FILENO : ::open(name.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return failed(std::strerror(errno));
   std::string bytes;

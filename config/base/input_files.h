@@ -17,6 +17,10 @@ bool is_standard_input(const std::filesystem::path& name);
 /// What stands in messages for it: "standard input", else the name.
 std::string input_name(const std::filesystem::path& name);
 
+/// Why `name` cannot be read as a file that is asked for its size and read again: "no such file", "is a folder", "is
+/// not a regular file"; empty: it can, unless its permissions forbid it.
+std::string why_no_file(const std::filesystem::path& name);
+
 /// All bytes of a file, a pipe or standard input, whose bytes are kept for a second reader of one program run. Error
 /// where there is nothing to read or more than `limit` bytes; its place is input_name().
 Result<std::string> read_input_bytes(const std::filesystem::path& name, std::uintmax_t limit);

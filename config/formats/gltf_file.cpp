@@ -13,6 +13,7 @@
 #include <span>
 #include <utility>
 
+#include "config/base/input_files.h"
 #include "config/formats/gltf_meshopt.h"
 
 namespace phare {
@@ -115,9 +116,8 @@ bool is_read(const std::string& name) {
 
 Result<tinygltf::Model> read_gltf(const std::filesystem::path& file, GltfImages images) try {
   const std::string place = file.string();
+  if (const std::string why = why_no_file(file); !why.empty()) return bad(place, why);
   std::error_code code;
-  if (!std::filesystem::exists(file, code)) return bad(place, "no such file");
-  if (!std::filesystem::is_regular_file(file, code)) return bad(place, "is not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(file, code);
   if (code) return bad(place, code.message());
   if (size > kMaxFileBytes) return bad(place, "is larger than 1 GiB");

@@ -17,6 +17,8 @@
 #define TOML_ASSERT(expr) static_assert(true)
 #include <toml++/toml.h>
 
+#include "config/base/input_files.h"
+
 namespace phare {
 
 struct TomlTable::Node {
@@ -151,9 +153,7 @@ std::string unknown_name_reason(std::string_view what, std::string_view name, st
 }
 
 Result<TomlTable> TomlTable::read(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) return Error{path.string(), "no such file"};
-  if (!std::filesystem::is_regular_file(path, ignored)) return Error{path.string(), "is not a file"};
+  if (const std::string why = why_no_file(path); !why.empty()) return Error{path.string(), why};
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return Error{path.string(), "cannot be read"};
   const std::string text{std::istreambuf_iterator<char>(stream), {}};

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "config/base/input_files.h"
 #include "config/base/paths.h"
 #include "config/formats/toml_table.h"
 #include "config/traffic/bounds.h"
@@ -51,11 +52,10 @@ RoadUserLights lights_of(TomlTable& table, RoadUserClass kind) {
 std::filesystem::path lamp_file_of(TomlTable& table, const char* key) {
   const std::string name = table.text(key);
   const std::filesystem::path file = resolve_path(name, table.file());
-  std::error_code unreadable;
   if (name.empty())
     table.fail(key, "expected the name of a file");
-  else if (!std::filesystem::is_regular_file(file, unreadable))
-    table.fail(key, file.string() + ": no such file");
+  else if (const std::string why = why_no_file(file); !why.empty())
+    table.fail(key, file.string() + ": " + why);
   return file;
 }
 

@@ -184,7 +184,8 @@ TEST_F(OwnLamp, WhatIsRefusedSaysWhichAndWhy) {
   const auto ends = [](const std::string& text, const std::string& end) {
     EXPECT_TRUE(text.ends_with(end)) << text << "\nexpected " << end;
   };
-  ends(refusal({.low = {"/nowhere/my.ies"}}), "--lamp /nowhere/my.ies: /nowhere/my.ies: no such file");
+  ends(refusal({.low = {"/nowhere/my.ies"}}),
+       "--lamp /nowhere/my.ies: /nowhere/my.ies: no such file; a photometry file is expected");
   ends(refusal({.low = {folder_.string()}}), "is a folder; a photometry file is expected");
   ends(refusal({.low = {"left=" + low}}), ": left= without right=; one file for both sides is FILE alone");
   ends(refusal({.low = {"right=" + low}}), ": right= without left=");

@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "config/base/input_files.h"
 #include "config/formats/gltf_uri.h"
 
 namespace phare {
@@ -141,8 +142,8 @@ Result<LightProfile> profile(const tinygltf::Model& model, const tinygltf::Value
   if (!uri.empty() && !is_data_uri(uri)) {
     profile.file = folder / decoded_uri(uri);
     profile.name = profile.file.string();
+    if (const std::string why = why_no_file(profile.file); !why.empty()) return Error{place, profile.name + ": " + why};
     std::error_code failed;
-    if (!std::filesystem::is_regular_file(profile.file, failed)) return Error{place, profile.name + ": no such file"};
     if (std::filesystem::file_size(profile.file, failed) > kMostProfileBytes || failed)
       return Error{place, profile.name + ": cannot be read, or is larger than 256 MiB"};
     std::ifstream stream(profile.file, std::ios::binary);
