@@ -7,6 +7,6 @@ layout(location = 0) in vec3 position_m;
 invariant gl_Position;
 
 void main() {
-  vec3 point = turned(position_m) + draw.origin.xyz;
+  vec3 point = placed(position_m);
   gl_Position = clip_from_eye() * vec4(point, 1.0);
 }

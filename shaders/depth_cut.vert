@@ -13,7 +13,7 @@ layout(location = 1) out float opacity;
 invariant gl_Position;
 
 void main() {
-  vec3 point = turned(position_m) + draw.origin.xyz;
+  vec3 point = placed(position_m);
   uv = corner_uv;
   opacity = corner_colour.a;
   gl_Position = clip_from_eye() * vec4(point, 1.0);

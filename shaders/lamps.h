@@ -206,7 +206,8 @@ struct GpuSheeting {
 struct GpuDraw {
   vec4 origin;         // of the batch, relative to the eye, m; w, by method "reference": the draw's first index, as bits
   vec4 detail_origin;  // of the batch modulo 1024 m, so that detail stays put in float32; w, likewise: its first vertex
-  vec4 turn[3];        // rows that turn what moves into the world; of what stands those of no turn; w: what float32 leaves of the origin, m
+  vec4 turn[3];        // rows that turn what moves into the world; of what stands those of no turn; w: what the origin
+                       // leaves, m
 };
 
 PHARE_SHADER_END

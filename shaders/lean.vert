@@ -19,7 +19,7 @@ vec3 in_frame(uint lamp, vec3 d) {
 
 void main() {
   const float pi = 3.14159265;
-  vec3 point = turned(position_m) + draw.origin.xyz, n = turned(normal);
+  vec3 point = placed(position_m), n = turned(normal);
   gl_Position = clip_from_eye() * vec4(point, 1.0);
   vec4 material = materials[material_index].reflectance;
   vec3 reflected = material.rgb / pi;

@@ -35,7 +35,7 @@ layout(location = 14) in uvec4 road_c;
 invariant gl_Position;  // the depth pass and the lamp pass must agree to the bit
 
 void main() {
-  point = turned(position_m) + draw.origin.xyz;
+  point = placed(position_m);
   point_normal = turned(normal);
   detail_from_point = draw.detail_origin.xyz - draw.origin.xyz;
   gl_Position = clip_from_eye() * vec4(point, 1.0);

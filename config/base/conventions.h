@@ -1,12 +1,23 @@
-// Angles between the conventions that meet in Phare, each turned in one place, and a constant of nature.
+// Angles between the conventions that meet in Phare, each turned in one place, a constant of nature, and the grid of
+// places.
 #pragma once
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 namespace phare {
 
 inline constexpr double kGravity_mps2 = 9.80665;  // 3rd CGPM, 1901
+
+/// Places on this grid, 0.06 mm, are added and subtracted without rounding in float32 where no sum is beyond 1024 m: a
+/// corner that several pieces of a scene share is then drawn in one place, whichever origin each has.
+inline constexpr double kPlaceGrid_m = 0x1p-14;
+/// The nearest place on it; of one halfway the higher.
+inline glm::dvec3 on_place_grid(const glm::dvec3& at_m) {
+  return glm::floor(at_m / kPlaceGrid_m + 0.5) * kPlaceGrid_m;
+}
 
 /// ISO 8855 pitch of the body to the aim of a lamp fixed to it, and back: the function is its own inverse.
 ///

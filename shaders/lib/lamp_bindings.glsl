@@ -37,6 +37,10 @@ layout(push_constant) uniform Draw { GpuDraw draw; };
 vec3 turned(vec3 v) {
   return vec3(dot(draw.turn[0].xyz, v), dot(draw.turn[1].xyz, v), dot(draw.turn[2].xyz, v));
 }
+// Relative to the eye. The sum is exact where both are on the grid of places (config/base/conventions.h), and the rest is the same for all that stands.
+vec3 placed(vec3 position_m) {
+  return turned(position_m) + draw.origin.xyz + vec3(draw.turn[0].w, draw.turn[1].w, draw.turn[2].w);
+}
 #endif
 
 mat4 clip_from_eye() {

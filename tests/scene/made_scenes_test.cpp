@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "config/base/conventions.h"
 #include "config/base/paths.h"
 #include "tools/scene/path.h"
 #include "visual/scene/scene.h"
@@ -37,6 +38,21 @@ TEST(Path, OffsetsAreToItsLeft) {
     EXPECT_NEAR(glm::dot(left - middle, glm::dvec3(std::cos(heading), std::sin(heading), 0.0)), 0.0, 1e-12);
     EXPECT_GT(glm::dot(left - middle, glm::dvec3(-std::sin(heading), std::cos(heading), 0.0)), 3.4);
     EXPECT_EQ(left.z, 0.2);
+  }
+}
+
+// So that pieces that share a corner have it in one place, whichever origin each is stored about.
+TEST(MadeScenes, EveryCornerLiesOnTheGridOfPlaces) {
+  for (const char* name : {"country_road", "town", "motorway", "tunnel", "road_users"}) {
+    const Result<Scene> scene = read_scene(generated_dir() / "scenes" / (std::string(name) + ".glb"));
+    ASSERT_TRUE(scene.ok()) << scene.error().text();
+    std::size_t off = 0;
+    for (const SceneChunk& chunk : scene->chunks)
+      for (std::uint32_t i = 0; i < chunk.vertex_count; ++i) {
+        const glm::dvec3 at_m = chunk.origin_m + glm::dvec3(scene->vertices[chunk.first_vertex + i].position_m);
+        off += at_m != on_place_grid(at_m);
+      }
+    EXPECT_EQ(off, 0u) << name << " of " << scene->vertices.size();
   }
 }
 

@@ -5,15 +5,18 @@
 #include <numbers>
 #include <tuple>
 
+#include "config/base/conventions.h"
+
 namespace phare::scene {
 
 namespace {
 
 using Key = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
 
-/// Positions that agree to a tenth of a millimetre are one corner.
+/// Of a place on the grid.
 Key key_of(glm::dvec3 p) {
-  return {std::llround(p.x * 1e4), std::llround(p.y * 1e4), std::llround(p.z * 1e4)};
+  const glm::dvec3 steps = p / kPlaceGrid_m;
+  return {std::llround(steps.x), std::llround(steps.y), std::llround(steps.z)};
 }
 Key key_of_normal(glm::dvec3 n) {
   return {std::llround(n.x * 1e3), std::llround(n.y * 1e3), std::llround(n.z * 1e3)};
@@ -30,7 +33,10 @@ glm::dvec3 round_point(glm::dvec3 centre, glm::dvec3 u, glm::dvec3 v, double rad
 
 }  // namespace
 
-IndexedMesh weld(std::span<const Triangle> triangles, double crease_deg) {
+IndexedMesh weld(std::span<const Triangle> as_drawn, double crease_deg) {
+  std::vector<Triangle> triangles(as_drawn.begin(), as_drawn.end());
+  for (Triangle& t : triangles)
+    for (glm::dvec3& p : t.corner) p = on_place_grid(p);
   const double least_cos = std::cos(crease_deg * std::numbers::pi / 180.0);
   std::map<Key, std::vector<std::size_t>> around;
   for (std::size_t i = 0; i < triangles.size(); ++i) {

@@ -42,8 +42,9 @@ struct IndexedMesh {
   std::vector<std::uint32_t> indices;
 };
 
-/// Joins equal corners. Missing normals become the area-weighted mean of the faces around a corner that turn by less
-/// than crease_deg: round where round, hard where hard. Triangles without area are left out.
+/// Corners go to the grid of places (config/base/conventions.h), and equal ones are joined. Missing normals become the
+/// area-weighted mean of the faces around a corner that turn by less than crease_deg: round where round, hard where
+/// hard. Triangles without area are left out.
 IndexedMesh weld(std::span<const Triangle> triangles, double crease_deg = 42.0);
 
 /// Same numbers everywhere for one seed (splitmix64, Steele et al. 2014).

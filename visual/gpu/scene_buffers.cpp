@@ -15,6 +15,7 @@
 #include <set>
 #include <tuple>
 
+#include "config/base/conventions.h"
 #include "visual/scene/far_mesh.h"
 #include "visual/scene/refine.h"
 
@@ -312,7 +313,8 @@ glm::dvec2 looks_along(const ViewGeometry& view, const SceneBatch& batch) {
 }
 
 shader::GpuDraw draw_at(const glm::dvec3& from_eye_m, const glm::dvec3& detail_m, const glm::dmat3& turn) {
-  shader::GpuDraw draw{glm::vec4(glm::vec3(from_eye_m), 0.0f), glm::vec4(glm::vec3(detail_m), 0.0f), {}};
+  // What is off the grid is the same for all that stands, and goes apart: no crack opens between pieces.
+  shader::GpuDraw draw{glm::vec4(glm::vec3(on_place_grid(from_eye_m)), 0.0f), glm::vec4(glm::vec3(detail_m), 0.0f), {}};
   const glm::dmat3 rows = glm::transpose(turn);
   for (int i = 0; i < 3; ++i)
     draw.turn[i] =
