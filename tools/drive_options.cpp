@@ -109,6 +109,13 @@ void settle_out(DriveOptions& options) {
                options.out);
 }
 
+/// Whether the rig's cockpit drives by somebody's hands alone: bus, log, script and recording go without them.
+Result<bool> driven_by_hand(const Rig& rig) {
+  const auto cockpit = read_cockpit(rig.cockpit_file);
+  if (!cockpit) return cockpit.error();
+  return cockpit->source == SourceKind::kKeyboard || cockpit->source == SourceKind::kGamepad;
+}
+
 /// Nobody has named a drive, and nobody sits at the window: that of the scene, recorded where it is, but for a road
 /// that a car has to answer. A moment that is to be explained is of a recording or of none.
 void take_demo_drive(const Rig& rig, DriveOptions& options) {
@@ -154,7 +161,11 @@ Result<Rig> prepare_drive(DriveOptions& options) {
   const bool person = !options.headless && !options.lockstep && options.picture.frames == 0;
   const bool any_drive = !options.drive.empty() || !options.script.empty() || !options.log.empty();
   if (person) options.guide = any_drive ? "replay" : "live";
-  if (!person && !any_drive && options.cockpit.empty()) take_demo_drive(*rig, options);
+  if (!person && !any_drive && options.cockpit.empty()) {
+    const auto by_hand = driven_by_hand(*rig);
+    if (!by_hand) return by_hand.error();
+    if (*by_hand) take_demo_drive(*rig, options);
+  }
   if (!options.drive.empty() && !options.level.empty() && options.level != "pose") {
     options.closed_loop = true;
     spdlog::warn(

@@ -128,6 +128,36 @@ TEST_F(DriveTest, AnotherOfOurRoadsIsDrivenAlongItsOwnLane) {
   EXPECT_NEAR(y_m, -8.375, 1e-6);  // the motorway's right lane; the country road's lies at -1.625
 }
 
+// A rig whose cockpit names a script is driven by it, and by no demo.
+TEST_F(DriveTest, ARigsOwnSourceDrivesIt) {
+  const std::string config = source_dir() + "/config/";
+  const auto text_of = [](const std::string& file) {
+    std::ifstream in(file);
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  };
+  const auto replaced = [](std::string text, const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+      text.replace(at, from.size(), to);
+    return text;
+  };
+  const fs::path own = folder_ / "own";
+  fs::create_directories(own);
+  std::ofstream(own / "cockpit.toml") << "[source]\nkind = \"driver\"\nfile = \"script.toml\"\n";
+  std::ofstream(own / "script.toml") << replaced(text_of(config + "drives/country_road_script.toml"), "light = \"low\"",
+                                                 "light = \"position\"");
+  std::ofstream(own / "rig.toml") << replaced(
+      replaced(text_of(config + "rigs/country_road.toml"), "\"../cockpits/keyboard.toml\"", "\"cockpit.toml\""),
+      "\"../", "\"" + config);
+  ASSERT_EQ(drive(own / "out", folder_ / "home", {"--frames", "3", "--rig", (own / "rig.toml").string()}), 0);
+  const json report = report_of(own / "out");
+  EXPECT_FALSE(report.contains("drive") && !report["drive"].is_null()) << report["drive"];
+  std::ifstream rows(own / "out/drive.csv");
+  const std::string csv{std::istreambuf_iterator<char>(rows), {}};
+  EXPECT_EQ(csv.find("low"), std::string::npos) << csv;
+  fs::remove(own / "script.toml");
+  EXPECT_EQ(drive(own / "none", folder_ / "home", {"--frames", "3", "--rig", (own / "rig.toml").string()}), 2);
+}
+
 // Beam images are summed when a light changes, at most one for each of two headlamps and two fog lamps, and in no other
 // frame.
 TEST_F(DriveTest, BeamsAreSummedOnlyWhenALightChanges) {
