@@ -189,6 +189,15 @@ TEST(Lm63, TooManyValuesAreReported) {
       << table->notes[0];
 }
 
+// "1,5" is two numbers here; where that makes more than the table has, it was one.
+TEST(Lm63, DecimalCommasAreRefusedNotReadAsTwoNumbers) {
+  const std::string axes = kHead + "1 1000 1 2 2 3 2 0 0 0\n1 1 0\n-10 10\n-20 20\n";
+  EXPECT_EQ(reason(axes + "1,5 500,5\n3,5 4,5\n"),
+            "lamp.ies:9: 4 words more than the 4 candela values, and commas stand between digits: a comma separates "
+            "numbers here, decimals are written with a point");
+  EXPECT_TRUE(read(axes + "1,500\n3,4\n").ok()) << "as many as there are nodes";
+}
+
 TEST(Lm63, DamagedFilesDoNotCrash) {
   std::mt19937 random(7);
   for (std::size_t length = 0; length < kTypeA.size(); ++length) (void)read(kTypeA.substr(0, length)).ok();

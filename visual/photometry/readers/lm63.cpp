@@ -214,6 +214,13 @@ void read_keyword(std::string_view line, LampHeader& header) {
   }
 }
 
+bool holds_digits_about_a_comma(std::string_view text) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t at = 1; at + 1 < text.size(); ++at)
+    if (text[at] == ',' && digit(text[at - 1]) && digit(text[at + 1])) return true;
+  return false;
+}
+
 }  // namespace
 
 Result<IntensityTable> parse_lm63(std::string_view bytes, const std::string& name, const LampReadSettings& settings) {
@@ -248,6 +255,7 @@ Result<IntensityTable> parse_lm63(std::string_view bytes, const std::string& nam
       return checked.error();
   }
 
+  const std::size_t numbers_at = bytes.size() - text.rest().size();
   const auto counts = read_header(text, *edition, table);
   if (!counts) return counts.error();
   const bool is_c = table.type == PhotometricType::kC;
@@ -282,10 +290,15 @@ Result<IntensityTable> parse_lm63(std::string_view bytes, const std::string& nam
       smallest = smallest == 0.0 ? step : std::min(smallest, step);
     }
   }
+  const std::string_view values = bytes.substr(0, bytes.size() - text.rest().size());
   if (!text.next_word().empty()) {
     const std::string where = text.place();
     std::size_t extra = 1;
     while (!text.next_word().empty()) ++extra;
+    if (holds_digits_about_a_comma(values.substr(numbers_at)))
+      return Error{where, std::to_string(extra) + " words more than the " + std::to_string(count) +
+                              " candela values, and commas stand between digits: a comma separates numbers here, "
+                              "decimals are written with a point"};
     table.notes.push_back(where + ": " + std::to_string(extra) + " word(s) after the last candela value ignored");
   }
   fill_table(table, unfolded->columns, std::move(*second), planes);
