@@ -107,16 +107,22 @@ SourceCounts& SourceCounts::operator+=(const SourceCounts& other) {
   return *this;
 }
 
+Result<CockpitConfig> read_source_beside(const std::filesystem::path& file) {
+  Result<CockpitConfig> beside = read_cockpit(file);
+  if (!beside) return beside;
+  if (plays_by_itself(*beside)) return Error{file.string(), "a drive or a script cannot stand beside another source"};
+  if (!beside->also.empty()) return Error{file.string(), "names further sources itself (also)"};
+  return beside;
+}
+
 Result<std::unique_ptr<Source>> open_source(const CockpitConfig& config) {
   Result<std::unique_ptr<Source>> first = open_one(config);
   if (!first || config.also.empty() || plays_by_itself(config)) return first;
   std::vector<CombinedSource::Part> parts;
   parts.push_back({std::move(*first), config});
   for (const std::filesystem::path& file : config.also) {
-    Result<CockpitConfig> beside = read_cockpit(file);
+    Result<CockpitConfig> beside = read_source_beside(file);
     if (!beside) return beside.error();
-    if (plays_by_itself(*beside)) return Error{file.string(), "a drive or a script cannot stand beside another source"};
-    if (!beside->also.empty()) return Error{file.string(), "names further sources itself (also)"};
     Result<std::unique_ptr<Source>> source = open_one(*beside);
     if (!source) {
       // The first has to be there; what stands beside it is a convenience.

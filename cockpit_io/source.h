@@ -88,6 +88,10 @@ class Source {
   SourceCounts counts_;
 };
 
+/// A cockpit file that another names beside itself (also). Error: it cannot be read, plays by itself, or names further
+/// ones.
+Result<CockpitConfig> read_source_beside(const std::filesystem::path& file);
+
 /// Opens the source a cockpit file names, with those it names beside it (also). Errors: missing or malformed files, a
 /// kernel without CAN.
 Result<std::unique_ptr<Source>> open_source(const CockpitConfig& config);

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cockpit_io/can_log.h"
+#include "cockpit_io/source.h"
 #include "config/cockpit.h"
 #include "tools/can_tool.h"
 #include "tools/commands.h"
@@ -57,6 +58,8 @@ int can_check(const CanOptions& options) {
   if (dbc_file.empty()) return bad_input({options.cockpit_file, "names no DBC file; give one with --dbc FILE"});
   const auto dbc = dbc_of(dbc_file);
   if (!dbc) return bad_input(dbc.error());
+  for (const auto& file : config->also)
+    if (const auto beside = read_source_beside(file); !beside) return bad_input(beside.error());
   const auto log = log_of(options.log_file);
   if (!log) return bad_input(log.error());
   if (const Status done = check_cockpit(*config, *dbc, *log, std::cout); !done) return bad_input(done.error());

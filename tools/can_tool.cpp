@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "cockpit_io/crc.h"
+#include "cockpit_io/feedback.h"
 #include "cockpit_io/message_check.h"
 #include "cockpit_io/signal_map.h"
 #include "config/formats/toml_table.h"
@@ -243,6 +244,10 @@ void list_dbc(const Dbc& dbc, std::ostream& out) {
 Status decode_log(const Dbc& dbc, const CandumpLog& log, const DecodeAsked& asked, std::ostream& out) {
   const auto chosen = choose(dbc, asked.signals);
   if (!chosen) return chosen.error();
+  if (std::ranges::none_of(log.entries, [&](const CandumpEntry& entry) {
+        return dbc.find(entry.frame.id, entry.frame.extended) != nullptr;
+      }))
+    return Error{log.file.string(), "of its " + std::to_string(log.entries.size()) + " frames the DBC file knows none"};
   if (asked.csv) out << "t_s,message,signal,value,unit,name\n";
   for (const CandumpEntry& entry : log.entries) {
     const DbcMessage* message = dbc.find(entry.frame.id, entry.frame.extended);
@@ -272,6 +277,7 @@ Status decode_log(const Dbc& dbc, const CandumpLog& log, const DecodeAsked& aske
 Status check_cockpit(const CockpitConfig& config, const Dbc& dbc, const CandumpLog& log, std::ostream& out) {
   auto map = SignalMap::bind(config, dbc, 0);
   if (!map) return map.error();
+  if (const auto sends = Feedback::bind(config, dbc); !sends) return sends.error();
   DriverInput input = initial_input(config);
   std::vector<Shown> last = shown(input);
   std::vector<std::size_t> moves(last.size(), 0);

@@ -7,6 +7,9 @@
 #include <set>
 
 #include "cockpit_io/dbc.h"
+#include "cockpit_io/feedback.h"
+#include "cockpit_io/signal_map.h"
+#include "cockpit_io/source.h"
 #include "config/base/input_files.h"
 #include "config/cockpit.h"
 #include "config/road/lane.h"
@@ -19,6 +22,7 @@
 #include "visual/photometry/bench/lint.h"
 #include "visual/photometry/bench/table_end.h"
 #include "visual/photometry/readers/read_lamp.h"
+#include "visual/photometry/table/surface_luminance.h"
 #include "visual/scene/scene.h"
 
 namespace phare {
@@ -92,6 +96,8 @@ class Checker {
     if (!is_there(file, "the street lamps")) return;
     const auto config = read_street_lamps(file);
     if (!config) return problem(config.error());
+    if (is_there(config->r_table_file, "the r-table of " + file.string()))
+      if (const auto table = read_r_table(config->r_table_file); !table) problem(table.error());
     for (const LuminaireConfig& kind : config->luminaires)
       if (is_there(kind.file, "the light of luminaire \"" + kind.name + "\" of " + file.string()))
         if (const auto table = read_lamp(kind.file); !table) problem(table.error());
@@ -102,11 +108,21 @@ class Checker {
     const auto config = read_cockpit(file);
     if (!config) return problem(config.error());
     if (is_there(config->dbc_file, "the DBC of " + file.string())) {
-      if (const auto dbc = read_dbc(config->dbc_file); !dbc) problem(dbc.error());
+      const auto dbc = read_dbc(config->dbc_file);
+      if (!dbc) {
+        problem(dbc.error());
+      } else {
+        if (const auto map = SignalMap::bind(*config, *dbc, 0); !map) problem(map.error());
+        if (const auto sends = Feedback::bind(*config, *dbc); !sends) problem(sends.error());
+      }
     }
     is_there(config->input_file, "what " + file.string() + " plays");
     for (const fs::path& also : config->also) {
-      if (is_there(also, "a further source of " + file.string())) cockpit(also);
+      if (!is_there(also, "a further source of " + file.string())) continue;
+      if (const auto beside = read_source_beside(also); !beside)
+        problem(beside.error());
+      else
+        cockpit(also);
     }
   }
 

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <set>
 
+#include "config/base/paths.h"
 #include "config/base/remedies.h"
 #include "tests/paths.h"
 #include "tests/process/drive_run.h"
@@ -38,11 +39,15 @@ int run(const fs::path& folder, const std::string& command, std::string& said) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
 class BadInput : public testing::Test {
  protected:
   void SetUp() override {
-    std::ifstream rig(kConfig + "rigs/country_road.toml");
-    const std::string text{std::istreambuf_iterator<char>(rig), {}};
+    const std::string text = text_of(kConfig + "rigs/country_road.toml");
     write_rig("rig.toml", text, "", "");
     write_rig("rig_bad_ies.toml", text, "\"generated/lamps/low_rht.ies\"",
               "\"" + (folder_ / "bad.ies").string() + "\"");
@@ -238,7 +243,30 @@ TEST_F(BadInput, OfTheOtherCommands) {
   const std::string lamp = " --lamp short.ies,x=0,y=0,z=1";
   const std::string import = "phare import --out out.pcap ", cost = "phare cost --ladder poses --quick --out cost ";
   write("far.csv", "x_m,y_m,z_m,nx,ny,nz\n1,2,3,0,0,1\n1e200,2,3,0,0,1\n");
+  // Cockpit files and street lamps that are good by themselves, and name what is not.
+  std::string stalk = text_of(kConfig + "cockpits/phare_stalk.toml");
+  write_rig("stalk.toml", stalk, "\"phare_stalk.dbc\"", "\"" + kConfig + "cockpits/phare_stalk.dbc\"");
+  stalk = text_of(folder_ / "stalk.toml");
+  write_rig("unknown_signal.toml", stalk, "\"FLASH\"", "\"FLUSH\"");
+  write_rig("unknown_telltale.toml", stalk, "HIGH_BEAM =", "HIGH_BEAMS =");
+  write_rig("beside_itself.toml", stalk, "timeout_s", "also = [\"beside_itself.toml\"]\ntimeout_s");
+  write_rig("beside_none.toml", stalk, "timeout_s", "also = [\"absent.toml\"]\ntimeout_s");
+  for (const std::string cockpit : {"unknown_signal.toml", "unknown_telltale.toml", "beside_itself.toml"})
+    write_rig("rig_" + cockpit, text_of(folder_ / "rig.toml"), "\"" + kConfig + "cockpits/keyboard.toml\"",
+              "\"" + cockpit + "\"");
+  write("lamps.toml", "r_table = \"absent.csv\"\n" + text_of(generated_dir() / "scenes/town_lamps.toml"));
+  write_rig("rig_no_table.toml", text_of(kConfig + "rigs/town.toml"), "\"generated/scenes/town_lamps.toml\"",
+            "\"lamps.toml\"");
   expect_refused({
+      {"rig: signal unknown", "phare rig check rig_unknown_signal.toml",
+       "no signal \"FLUSH\"; did you mean \"FLASH\"?"},
+      {"rig: telltale unknown", "phare rig check rig_unknown_telltale.toml", "no signal \"HIGH_BEAMS\""},
+      {"rig: source beside itself", "phare rig check rig_beside_itself.toml", "names further sources itself (also)"},
+      {"rig: no r-table", "phare rig check rig_no_table.toml", "absent.csv: no such file; it is the r-table of"},
+      {"can: telltale unknown", "phare can check unknown_telltale.toml --log good.log", "no signal \"HIGH_BEAMS\""},
+      {"can: no source beside", "phare can check beside_none.toml --log good.log", "absent.toml: no such file"},
+      {"can: a DBC of another car", "phare can decode good.log --dbc " + source_dir() + "/config/examples/car.dbc",
+       "the DBC file knows none"},
       {"no command", "phare ", "subcommand"},
       {"unknown command", "phare drvie", "no command \"drvie\"; did you mean \"drive\"?"},
       {"points without a number", measure + "--points bad.csv" + lamp, "short.ies:"},
