@@ -27,7 +27,10 @@ namespace {
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr std::size_t kMaxChannels = 16;
 
-glm::dvec3 vector3(const std::vector<double>& xyz) {
+/// A place in the car, m.
+glm::dvec3 place_in_car(TomlTable& table, std::string_view key, const std::vector<double>& xyz) {
+  if (std::ranges::any_of(xyz, [](double x) { return !(std::abs(x) <= kFarthestFromCar_m); }))
+    table.fail(key, "farther than " + std::to_string(std::lround(kFarthestFromCar_m)) + " m from the car");
   return {xyz[0], xyz[1], xyz[2]};
 }
 
@@ -61,7 +64,8 @@ ChannelConfig read_channel(TomlTable table, std::size_t index) {
   channel.width_px = static_cast<int>(table.integer_or("width_px", channel.width_px, 64, 16384));
   channel.height_px = static_cast<int>(table.integer_or("height_px", channel.height_px, 64, 16384));
   channel.fov_horizontal_rad = table.number_or("fov_horizontal_deg", 60.0, 1.0, 170.0) * kRadPerDeg;
-  channel.eye_m = vector3(table.numbers_or("eye_m", std::array{channel.eye_m.x, channel.eye_m.y, channel.eye_m.z}));
+  const std::array eye_m{channel.eye_m.x, channel.eye_m.y, channel.eye_m.z};
+  channel.eye_m = place_in_car(table, "eye_m", table.numbers_or("eye_m", eye_m));
   channel.yaw_rad = degrees(table, "yaw_deg", -180.0, 180.0);
   channel.pitch_rad = degrees(table, "pitch_deg", -89.0, 89.0);
   channel.place = read_bus_place(table);
@@ -128,7 +132,7 @@ AimConfig read_aim(TomlTable& table) {
 void read_lamp(TomlTable table, const std::filesystem::path& rig_file, DesignConfig& design) {
   LampConfig lamp;
   lamp.name = table.text("name");
-  lamp.position_m = vector3(table.numbers("position_m", 3));
+  lamp.position_m = place_in_car(table, "position_m", table.numbers("position_m", 3));
   lamp.aim = read_aim(table);
   for (TomlTable source : table.tables("source"))
     std::ranges::copy(read_sources(source, rig_file), std::back_inserter(lamp.sources));

@@ -33,6 +33,8 @@ inline constexpr std::array<std::string_view, 4> kImageLevelNames{"normalised-8b
                                                                   "half-float-native-nodes", "float32-native-nodes"};
 
 /// Colour temperatures of a source, K: where the fit of Kim et al. 2002 to the black body's colour holds.
+/// Lamps and eyes, along each axis of the car; the bus passes lamps on as far (net/wire_ranges.cpp).
+inline constexpr double kFarthestFromCar_m = 50.0;
 inline constexpr double kCoolestSource_k = 1667.0, kHottestSource_k = 25000.0;
 
 /// One photometry file, mounted. Aim turns the lamp axes in the car frame: R = Rz(yaw)·Ry(-pitch)·Rx(roll).

@@ -176,6 +176,12 @@ Result<Rig> prepare_drive(DriveOptions& options) {
   if (!options.drive.empty() && !options.closed_loop && !options.car_and_road.empty() && !options.explain)
     return Error{options.car_and_road.front(),
                  "means nothing to recorded poses; with --closed-loop the car answers the recorded controls"};
+  if (options.closed_loop && options.drive.empty())
+    return Error{"--closed-loop", "replays a recording's controls: give --drive"};
+  if (options.picture.audit_bound && options.picture.audit_every == 0)
+    return Error{"--audit-bound", "holds audited pixels to it, and --audit-every 0 audits none"};
+  if (options.lockstep && options.picture.frames_in_flight == 2)
+    return Error{"--frames-in-flight", "2 is of real time: in lockstep one frame follows the other"};
   if (options.explain && !options.explain_cost && options.picture.frames > 0)
     return Error{"--frames", "says with --explain how often --cost draws the moment, and --cost is not given"};
   for (std::string* file : {&options.drive, &options.script, &options.log, &options.dbc}) {

@@ -51,6 +51,8 @@ class BadInput : public testing::Test {
     write_rig("rig.toml", text, "", "");
     write_rig("rig_bad_ies.toml", text, "\"generated/lamps/low_rht.ies\"",
               "\"" + (folder_ / "bad.ies").string() + "\"");
+    write_rig("rig_far_lamp.toml", text, "position_m = [3.45, ", "position_m = [1e30, ");
+    write_rig("rig_far_eye.toml", text, "eye_m = [", "eye_m = [1e300, 0, 0] # ");
     write_rig("rig_no_ies.toml", text, "\"generated/lamps/low_rht.ies\"", "\"absent.ies\"");
     write_rig("rig_bad_glb.toml", text, "\"generated/scenes/country_road.glb\"", "\"bad.glb\"");
     write_rig("rig_bad_gltf.toml", text, "\"generated/scenes/country_road.glb\"", "\"bad.gltf\"");
@@ -201,6 +203,13 @@ TEST_F(BadInput, OfADrive) {
       {"a tolerance without its sign", drive + "--tolerance 0.01", "expected a share of the light in percent"},
       {"a tolerance of nothing", drive + "--tolerance 0%", "expected a share of the light in percent"},
       {"a budget and a tolerance", drive + "--tolerance 1% --budget-ms 20", "--budget-ms"},
+      {"an audit's bound without audits", drive + "--audit-bound 1% --audit-every 0", "--audit-every 0 audits none"},
+      {"two frames in lockstep", drive + "--frames-in-flight 2", "--frames-in-flight: 2 is of real time"},
+      {"a script in a closed loop", drive + "--closed-loop --script " + kConfig + "drives/country_road_script.toml",
+       "--closed-loop: replays a recording's controls"},
+      {"a lamp far away", drive + "--rig rig_far_lamp.toml",
+       "\"design.lamp.position_m\": farther than 50 m from the car"},
+      {"an eye far away", drive + "--rig rig_far_eye.toml", "\"channel.eye_m\": farther than 50 m from the car"},
       {"an audit's bound in lux", drive + "--audit-bound 1lx", "expected a share of the light in percent"},
       {"unknown flag", drive + "--siez 3x3", "--siez"},
       {"frames not a number", "phare drive --frames many", "--frames"},

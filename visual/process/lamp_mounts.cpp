@@ -10,12 +10,11 @@ namespace phare {
 namespace {
 
 constexpr std::size_t kMostSteps = 1000;  // that undo goes back
-constexpr double kFarthest_m = 50.0;      // of a lamp from its car, as the bus has it (net/wire_ranges.cpp)
 constexpr double kMostTurn_rad = 1.6;
 
 bool in_range(const LampMount& mount) {
   for (int axis = 0; axis < 3; ++axis)
-    if (!(std::abs(mount.position_m[axis]) <= kFarthest_m)) return false;
+    if (!(std::abs(mount.position_m[axis]) <= kFarthestFromCar_m)) return false;
   return std::abs(mount.yaw_rad) <= kMostTurn_rad && std::abs(mount.pitch_rad) <= kMostTurn_rad &&
          std::abs(mount.roll_rad) <= kMostTurn_rad;
 }
