@@ -13,6 +13,7 @@ import pytest
 
 import phare
 from phare import sweep
+from phare.sweep.job import command_of
 
 FIXED = '[fixed]\nframes = 2\nsize = "64x64"\n'
 EDGE = '[[measure]]\nname = "edge_m"\nrange_lx = 5\ny_m = -1.75\n'
@@ -54,6 +55,12 @@ def test_a_latin_hypercube_has_one_value_in_each_part_and_repeats(tmp_path):
     assert [values["level"] for values in one].count("full") == 10
 
 
+def test_traffic_needs_no_law(tmp_path):
+    (tmp_path / "cars.toml").write_text("")
+    job = sweep.read_plan(plan_of(tmp_path, "[fixed]\ntraffic = 'cars.toml'\n[vary]\naim = [1]\n")).jobs[0]
+    assert f"--traffic {tmp_path.resolve() / 'cars.toml'}" in command_of(job, None)
+
+
 def test_a_list_is_as_it_stands(tmp_path):
     plan = sweep.read_plan(plan_of(tmp_path, 'kind = "list"\n[[run]]\naim = -1\n[[run]]\nlevel = "full"\n'))
     assert [job.varied for job in plan.jobs] == [{"aim": -1}, {"level": "full"}] and plan.axes() == ["aim", "level"]
@@ -65,6 +72,8 @@ def test_a_list_is_as_it_stands(tmp_path):
     ("kind = 'list'\n[vary]\naim = [1]\n", "a list has"), ("[vary]\naim = [1]\n[[measure]]\nname = 'a'\n", "either at"),
     ("[vary]\naim = [1]\n[[measure]]\nat = [1, 2, 3]\n", "has no name"), ("rank = 'best'\n[vary]\naim = [1]\n", "rank 'best'"),
     ("kind = 'latin-hypercube'\n[vary]\naim = [1]\n", "samples"), ("[vary]\nsensor_delay_s = [0.1]\n", "give law"),
+    ("samples = 7\n[vary]\naim = [1]\n", "samples is of a Latin hypercube"), ("seed = 3\n[vary]\naim = [1]\n", "seed is of a Latin"),
+    ("[fixed]\naim = -1\n[vary]\naim = [1]\n", "aim is fixed, and varies"),
     ("kind = 'latin-hypercube'\nsamples = 2\n[vary]\naim = { from = 2, to = 1 }\n", "expected a list or"), ("[vary\n", "Expected"),
     ("rank_by = 'edge'\n[vary]\naim = [1]\n", "rank_by 'edge' is no column of the table; there are aim, frames"),
 ])

@@ -48,7 +48,7 @@ def drive_words(job: Job) -> dict[str, Any]:
     }
     words["settings"] = {key[4:]: value for key, value in s.items() if key.startswith("set.")}
     more = ["--audit-every", "0"]
-    for key in ("vehicle", "friction", "roughness", "road"):
+    for key in ("vehicle", "friction", "roughness", "road", *(() if "law" in s else ("traffic",))):
         more += [f"--{key}", str(s[key])] if key in s else []
     words["more"] = more
     if "law" in s:

@@ -95,14 +95,20 @@ def read_plan(file: str | os.PathLike[str]) -> Plan:
     kind = document.get("kind", "grid")
     if kind not in _KINDS:
         raise BadInput(f"{file}: kind {kind!r}: expected one of {', '.join(_KINDS)}")
+    for key in ("seed", "samples"):
+        if key in document and kind != "latin-hypercube":
+            raise BadInput(f"{file}: {key} is of a Latin hypercube, and kind is {kind!r}")
+    for key in document.get("fixed", {}):
+        if key in document.get("vary", {}):
+            raise BadInput(f"{file}: {key} is fixed, and varies")
     folder = here.resolve().parent
     fixed = _settings(document.get("fixed", {}), f"{file}: fixed", folder)
     varied = _varied(document, kind, str(file))
     jobs = []
     for number, values in enumerate(varied, 1):
         settings = {**fixed, **_settings(values, f"{file}: job {number}", folder)}
-        if settings.get("law") is None and any(key in settings for key in (*WORDS[7:], "traffic")):
-            raise BadInput(f"{file}: job {number}: traffic and sensor_… are of a control law: give law")
+        if settings.get("law") is None and any(key in settings for key in WORDS[7:]):
+            raise BadInput(f"{file}: job {number}: sensor_… is of a control law: give law")
         jobs.append(Job(number, settings, values))
     measures = [_measure(table, f"{file}: measure {n}") for n, table in enumerate(document.get("measure", []), 1)]
     names = [measure.name for measure in measures]
