@@ -22,6 +22,7 @@ struct ImportArguments {
   ImportOptions import;
   std::string rig_file = config_path("rigs/country_road.toml"), out, light, onto, cockpit;
   bool json = false;
+  CLI::Option* start = nullptr;
 };
 
 /// Written beside the target and renamed when whole: bad input leaves nothing half-written.
@@ -76,6 +77,8 @@ int import_drive(ImportArguments& arguments) {
   } else if (arguments.onto != "none") {
     options.lane = arguments.onto;
   }
+  if (!options.lane && arguments.start->count() > 0)
+    return bad_input({"--start", "is a place on a lane, and the drive is put onto none"});
   const bool driven = !options.lane && options.pose.empty();
   if (const auto lane = lane_file_of(rig->scene_file); driven && std::filesystem::exists(lane)) {
     auto start = start_of_lane(lane);
@@ -135,9 +138,9 @@ void add_import(CLI::App& app, Command& chosen) {
   command->add_option(
       "--onto", arguments->onto,
       "Lane (CSV) to put the drive onto by path length, or none to keep the recorded pose [the scene's lane]");
-  command->add_option("--start", import.lane_start_m, "Where on the lane the drive begins, m")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  arguments->start = command->add_option("--start", import.lane_start_m, "Where on the lane the drive begins, m")
+                         ->check(CLI::NonNegativeNumber)
+                         ->capture_default_str();
   command
       ->add_option("--light", arguments->light,
                    "Light switch: low, high or as-recorded [low; with --cockpit as-recorded]")

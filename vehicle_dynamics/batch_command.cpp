@@ -326,6 +326,8 @@ Status BatchCommand::driver_fits() const {
   if (!o.manoeuvre.empty())
     for (const char* option : {"--hold-speed-kmh", "--follow", "--start-x-m"})
       if (given(option)) return Error{option, "a manoeuvre has a driver and a place of its own"};
+  if (!o.manoeuvre.empty() && o.output_hz < batch::kManoeuvreRows_hz)
+    return Error{"--output-hz", "a manoeuvre is measured by 100 rows a second or more"};
   if (!o.manoeuvre.empty() && o.levelling == "manual") return Error{"--levelling", "manual needs inputs"};
   if (given("--seconds") && !given("--hold-speed-kmh") && o.follow.empty())
     return Error{"--seconds", "goes with a driver: --hold-speed-kmh or --follow"};
@@ -356,6 +358,9 @@ int BatchCommand::run(const std::string& level_name) const {
   if (o.work_precision) return run_work_precision(o.vehicle);
   if (o.out.empty() && o.manoeuvre.empty() && o.plot.empty())
     return fail("phare-dynamics", {"--out", "--batch needs a file to write the motion to, or --plot a page"});
+  for (const char* option : {"--output-hz", "--columns"})
+    if (given(option) && o.out.empty() && o.plot.empty())
+      return fail("phare-dynamics", {option, "is of the rows that are written: give --out or --plot"});
   if (!o.reference.empty() && o.plot.empty())
     return fail("phare-dynamics", {"--reference", "is drawn on a page: give --plot FILE.html"});
   if (o.vehicle.empty()) return fail("phare-dynamics", {"--vehicle", "--batch needs a vehicle file"});

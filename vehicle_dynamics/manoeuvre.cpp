@@ -249,7 +249,7 @@ Result<Manoeuvre> manoeuvre(std::string_view name, double speed_mps, double scal
   Manoeuvre m{.name = std::string(name), .inputs = {}, .options = std::move(o)};
   const VehicleParams& v = m.options.vehicle;
   m.options.speed_mps = speed;
-  m.options.output_hz = std::max(m.options.output_hz, 100.0);
+  m.options.output_hz = std::max(m.options.output_hz, kManoeuvreRows_hz);
   Track t;
   switch (index) {
     case 0:

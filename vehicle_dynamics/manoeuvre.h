@@ -18,6 +18,8 @@
 
 namespace phare::batch {
 
+/// Rows a second that the measures of a manoeuvre are taken from, at least.
+inline constexpr double kManoeuvreRows_hz = 100.0;
 inline constexpr std::array<std::string_view, 5> kManoeuvreNames{"iso4138", "iso7401", "iso3888-2", "iso19365",
                                                                  "iso21994"};
 

@@ -169,6 +169,14 @@ TEST(BatchProgram, RefusesOptionsThatMeanNothing) {
     EXPECT_EQ(program(base + option), 0) << option;
   EXPECT_EQ(program("--rig x.toml --step-s 0.001"), 2);
   EXPECT_EQ(program("--work-precision --output-hz 10 --vehicle x.toml"), 2);
+  const std::string manoeuvre = "--manoeuvre iso7401 --vehicle " + std::string(vehicles_dir()) + "/bmw_320i.toml ";
+  for (const auto& [options, says] : {std::pair{"--output-hz 50 --out " + out, "100 rows a second or more"},
+                                      {"--output-hz 200", "--output-hz: is of the rows that are written"},
+                                      {"--columns slip", "--columns: is of the rows that are written"}}) {
+    std::string said;
+    EXPECT_EQ(program(manoeuvre + options, &said), 2) << options;
+    EXPECT_NE(said.find(says), std::string::npos) << said;
+  }
 }
 
 TEST(BatchProgram, SaysWhatItMeans) {
