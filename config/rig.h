@@ -32,9 +32,10 @@ enum class ImageLevel { kNormalised8, kHalfEven, kHalfNodes, kFloatNodes };
 inline constexpr std::array<std::string_view, 4> kImageLevelNames{"normalised-8bit-1999", "half-float-texture-filter",
                                                                   "half-float-native-nodes", "float32-native-nodes"};
 
-/// Colour temperatures of a source, K: where the fit of Kim et al. 2002 to the black body's colour holds.
-/// Lamps and eyes, along each axis of the car; the bus passes lamps on as far (net/wire_ranges.cpp).
+/// Of lamps and eyes, along each axis of the car; the bus passes lamps on as far (net/wire_ranges.cpp).
 inline constexpr double kFarthestFromCar_m = 50.0;
+
+/// Colour temperatures of a source, K: where the fit of Kim et al. 2002 to the black body's colour holds.
 inline constexpr double kCoolestSource_k = 1667.0, kHottestSource_k = 25000.0;
 
 /// One photometry file, mounted. Aim turns the lamp axes in the car frame: R = Rz(yaw)·Ry(-pitch)·Rx(roll).

@@ -114,7 +114,7 @@ void draw_wheel(Pen& pen, double x, double side) {
 
 /// Lens in a dark housing, on the edge of the bonnet from above the grille round to the wing.
 void draw_headlamp(Pen& pen, double side) {
-  // Of two sections of the body so high over their edge at the shoulder, outward from it and inward.
+  // Along the body, m; shares of the way from its shoulder to the bonnet's middle and down the wing; m over the paint.
   const auto patch = [&](Material m, double from_x, double to_x, double inward, double outward, double over) {
     const auto across = [&](double x) {
       const Section s = body_section(x);
