@@ -37,6 +37,17 @@ struct Options {
   double rest_s = 5.0, seconds = 0.0, log_speed = 0.0;
 };
 
+/// Whether the source has a use for what the command line says of one.
+Status check_used(const Options& options, const CockpitConfig& config) {
+  const std::string source =
+      "means nothing to the source \"" + std::string(kSourceKindNames[static_cast<std::size_t>(config.source)]) + "\"";
+  const bool bus = config.source == SourceKind::kCan, log = config.source == SourceKind::kLog;
+  if (!options.dbc_file.empty() && !bus && !log) return Error{"--dbc " + options.dbc_file, source};
+  if (!options.interface.empty() && !bus) return Error{"--interface " + options.interface, source};
+  if (options.log_speed > 0.0 && !log) return Error{"--log-speed", source};
+  return Done{};
+}
+
 /// The cockpit file with what the command line puts in its place.
 Result<CockpitConfig> configure(const Rig& rig, const Options& options) {
   Result<CockpitConfig> config =
@@ -59,6 +70,7 @@ Result<CockpitConfig> configure(const Rig& rig, const Options& options) {
     return Error{config->file.string(),
                  "names no CAN interface: it needs [source] kind = \"can\" and interface = \"can0\""};
   }
+  if (const Status used = check_used(options, *config); !used) return used.error();
   if (!options.dbc_file.empty()) config->dbc_file = options.dbc_file;
   config->demo_file = options.demo_file;
   config->demo_at_once = options.demo_at_once;

@@ -109,11 +109,21 @@ void settle_out(DriveOptions& options) {
                options.out);
 }
 
-/// Whether the rig's cockpit drives by somebody's hands alone: bus, log, script and recording go without them.
-Result<bool> driven_by_hand(const Rig& rig) {
+/// What drives where the command line names no drive: keys, gamepad or stalk, or what goes by itself.
+struct RigsOwn {
+  bool by_hand = false;    ///< keys or a gamepad: without a window nobody touches them
+  bool by_itself = false;  ///< a log, a script or a recording
+  bool frames = false;     ///< CAN frames, of a bus or a log
+};
+
+Result<RigsOwn> source_of(const Rig& rig) {
   const auto cockpit = read_cockpit(rig.cockpit_file);
   if (!cockpit) return cockpit.error();
-  return cockpit->source == SourceKind::kKeyboard || cockpit->source == SourceKind::kGamepad;
+  using enum SourceKind;
+  const SourceKind kind = cockpit->source;
+  return RigsOwn{.by_hand = kind == kKeyboard || kind == kGamepad,
+                 .by_itself = kind == kLog || kind == kDriver || kind == kDrive,
+                 .frames = kind == kCan || kind == kLog};
 }
 
 /// Nobody has named a drive, and nobody sits at the window: that of the scene, recorded where it is, but for a road
@@ -160,12 +170,12 @@ Result<Rig> prepare_drive(DriveOptions& options) {
   // Whoever sits at a window drives, unless a drive is named; automation (--frames, --lockstep) waits for nobody's key.
   const bool person = !options.headless && !options.lockstep && options.picture.frames == 0;
   const bool any_drive = !options.drive.empty() || !options.script.empty() || !options.log.empty();
-  if (person) options.guide = any_drive ? "replay" : "live";
-  if (!person && !any_drive && options.cockpit.empty()) {
-    const auto by_hand = driven_by_hand(*rig);
-    if (!by_hand) return by_hand.error();
-    if (*by_hand) take_demo_drive(*rig, options);
-  }
+  const auto rigs_own = source_of(*rig);
+  if (!rigs_own) return rigs_own.error();
+  if (person) options.guide = any_drive || rigs_own->by_itself ? "replay" : "live";
+  if (!options.dbc.empty() && options.log.empty() && (any_drive || !rigs_own->frames))
+    return Error{"--dbc " + options.dbc, "describes CAN frames, and the drive comes from neither a bus nor a log"};
+  if (!person && !any_drive && options.cockpit.empty() && rigs_own->by_hand) take_demo_drive(*rig, options);
   if (!options.drive.empty() && !options.level.empty() && options.level != "pose") {
     options.closed_loop = true;
     spdlog::warn(
@@ -225,7 +235,7 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
   auto* script = command.add_option("--script", options->script, "Script for the driver model")->excludes(drive_file);
   auto* log = command.add_option("--log", options->log, "candump log that moves the controls");
   log->excludes(drive_file)->excludes(script);
-  command.add_option("--dbc", options->dbc, "DBC file for --log [the cockpit file's]");
+  command.add_option("--dbc", options->dbc, "DBC file of the log or bus [the cockpit file's]");
   add_lamp_flags(&command, options->lamps);
   command.add_option("--design", options->design, "Design of the rig that is shown, by its name or number");
   command

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
 #include "config/base/input_files.h"
@@ -164,9 +165,9 @@ Result<std::vector<Illuminance>> measure_fragment(const std::vector<LampConfig>&
 #endif
 
 /// Of each object, points that lie in its shadow of some lamp.
-std::map<std::string, std::size_t> points_in_shadow(const std::vector<HiddenBy>& hidden) {
+std::map<std::string, std::size_t> points_in_shadow(const std::optional<std::vector<HiddenBy>>& hidden) {
   std::map<std::string, std::size_t> shadows;
-  for (const HiddenBy& names : hidden)
+  for (const HiddenBy& names : hidden.value_or(std::vector<HiddenBy>{}))
     for (const std::string& name : std::set<std::string>(names.begin(), names.end()))
       if (!name.empty()) ++shadows[name];
   return shadows;
@@ -183,6 +184,12 @@ std::string hides_strongest(const FixedLight& light, const World& world, const P
   if (hidden.empty() || hidden.front().share.lx <= strongest_lx) return "";
   const SceneChunk* by = occluder(world, hidden.front().from_m, row.position_m);
   return by != nullptr ? name_of(*by) : "";
+}
+
+/// The lamps of a scene or of the street are measured, for no car's are named.
+bool of_the_street(const MeasureOptions& options) {
+  const bool of_a_car = !options.lamps.empty() || !options.rig_file.empty();
+  return !options.street_lamps.empty() || (!options.scene.empty() && !of_a_car);
 }
 
 /// Street lamps in place of a car's: float64, with the shadows of a scene where one is given. The column of the lamp is
@@ -204,7 +211,8 @@ int measure_street(const MeasureOptions& options) {
   const auto points = read_points(options.points);
   if (!points) return bad_input(points.error());
   std::vector<Illuminance> measured;
-  std::vector<HiddenBy> hidden;
+  std::optional<std::vector<HiddenBy>> hidden;
+  if (!options.scene.empty()) hidden.emplace();
   const World world(scene);
   double highest = 0.0;
   for (const PointRow& row : points->rows) {
@@ -213,10 +221,10 @@ int measure_street(const MeasureOptions& options) {
     for (const FixedLight::Share& share : shares) at.total_lx += share.lx;
     const auto lamp = std::ranges::find(shares, false, &FixedLight::Share::reflected);  // strongest first
     at.lamps_lx = {lamp == shares.end() ? 0.0 : lamp->lx};
-    if (!options.scene.empty()) hidden.push_back({hides_strongest(*light, world, row, at.lamps_lx.front())});
+    if (hidden) hidden->push_back({hides_strongest(*light, world, row, at.lamps_lx.front())});
     highest = std::max(highest, at.total_lx);
   }
-  if (const Status status = write_illuminance(options.out, *points, measured, hidden); !status)
+  if (const Status status = write_illuminance(options.out, *points, 1, measured, hidden); !status)
     return bad_input(status.error());
   const auto shadows = points_in_shadow(hidden);
   if (options.json) {
@@ -306,8 +314,7 @@ int measure(const MeasureOptions& options) {
       inputs.push_back(file);
   }
   if (const Status apart = check_inputs(inputs, {options.out}); !apart) return bad_input(apart.error());
-  const bool of_a_car = !options.lamps.empty() || !options.rig_file.empty();
-  if (!options.street_lamps.empty() || (!options.scene.empty() && !of_a_car)) return measure_street(options);
+  if (of_the_street(options)) return measure_street(options);
   if (!options.table.empty()) return measure_table(options);
   if (options.points.empty() || options.out.empty())
     return bad_input({"", "give --points FILE and --out FILE, or --table FILE of a reference set"});
@@ -329,14 +336,14 @@ int measure(const MeasureOptions& options) {
   auto measured = measure_points(options, *lamps, *tables, *points, device);
   if (!measured) return bad_input(measured.error());
   std::vector<Illuminance>& illuminance = *measured;
-  std::vector<HiddenBy> hidden;
+  std::optional<std::vector<HiddenBy>> hidden;
   if (!options.scene.empty()) {
     std::vector<glm::dvec3> lamps_m;
     for (const LampConfig& lamp : *lamps) lamps_m.push_back(lamp.position_m);
     hidden = take_shadows(scene, lamps_m, points->rows, illuminance);
   }
   const auto shadows = points_in_shadow(hidden);
-  if (const Status status = write_illuminance(options.out, *points, illuminance, hidden); !status)
+  if (const Status status = write_illuminance(options.out, *points, lamps->size(), illuminance, hidden); !status)
     return bad_input(status.error());
 
   double highest = 0.0;
@@ -409,11 +416,10 @@ void add_measure(CLI::App& app, Command& chosen) {
                    "With --table: relative, where more than 0.01 lx is expected [fragment: 1e-5; reference: 1e-9]")
       ->check(CLI::PositiveNumber)
       ->needs(table);
-  command
-      ->add_option("--method", options->method,
-                   "fragment: the shader that draws the frame; reference: float64, here on the processor")
-      ->check(CLI::IsMember({"fragment", "reference"}))
-      ->capture_default_str();
+  auto* method =
+      command->add_option("--method", options->method,
+                          "fragment: the shader that draws the frame; reference: float64, here on the processor");
+  method->check(CLI::IsMember({"fragment", "reference"}))->capture_default_str();
   auto* image = command->add_option(
       "--beam-image", options->beam_image,
       "With --method fragment: how beam images are stored and looked up, from the 1999 paper's texture to "
@@ -421,9 +427,15 @@ void add_measure(CLI::App& app, Command& chosen) {
   image->check(CLI::IsMember(level_names()))->capture_default_str();
   command->add_flag("--validation", options->validation, "Vulkan validation with synchronization validation");
   command->add_flag("--json", options->json, "Print a summary as JSON");
-  command->callback([options, image, &chosen] {
-    if (image->count() > 0 && options->method == "reference")
-      throw CLI::ValidationError("--beam-image " + options->beam_image, "goes with --method fragment");
+  command->callback([options, method, image, &chosen] {
+    const bool street = of_the_street(*options);
+    if (street && method->count() > 0 && options->method == "fragment")
+      throw CLI::ValidationError("--method fragment", "is of a car's lamps; those of a scene or street are in float64");
+    const std::string of_float64 =
+        street ? "the lamps of a scene or street are in float64" : "goes with --method fragment";
+    const bool float64 = street || options->method == "reference";
+    if (float64 && image->count() > 0) throw CLI::ValidationError("--beam-image " + options->beam_image, of_float64);
+    if (float64 && options->validation) throw CLI::ValidationError("--validation", of_float64);
     chosen = [options] { return measure(*options); };
   });
 }

@@ -1,7 +1,8 @@
-"""What the commands have in common: how they end."""
+"""What the commands have in common: how they say what is wrong with their words, and how they end."""
 
 from __future__ import annotations
 
+import argparse
 import os
 import sys
 from collections.abc import Callable
@@ -9,6 +10,14 @@ from typing import NoReturn
 
 _SIGPIPE = 141
 """As a shell tells the end of who wrote into a pipe that nobody reads any more."""
+
+
+class Parser(argparse.ArgumentParser):
+    """Says in one line what is wrong, as the other programs do; exit code 2."""
+
+    def error(self, message: str) -> NoReturn:
+        print(f"{self.prog.removeprefix('python3 -m ')}: {message} (see --help)", file=sys.stderr)
+        sys.exit(2)
 
 
 def leave(main: Callable[[], int]) -> NoReturn:

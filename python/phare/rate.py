@@ -7,7 +7,7 @@ import math
 import os
 import sys
 
-from .command_line import leave
+from .command_line import Parser, leave
 from .control.sensors import Sensors
 from .errors import BadInput, PhareError
 from .rating import GOOD_M, POOR_M, UNOFFICIAL, Iihs, rate_iihs
@@ -35,15 +35,19 @@ def _words(done: Iihs, limits: str | None) -> str:
 
 def _adb(options: argparse.Namespace) -> str:
     """The eight tracks, and the page where it is asked for."""
+    options.law, options.delay = options.law or "GlareFree", options.delay or 0.0
     for flag, value in (("--delay", options.delay), ("--red-range", options.red_range)):
         if value is not None and not (math.isfinite(value) and value >= 0.0):
             raise BadInput(f"{flag} {value:g}: 0 or more")
-    if options.page and os.path.exists(options.page) and os.path.samefile(options.page, options.rig):
-        raise BadInput(f"{options.page}: is the input {options.rig}; it would be overwritten")
+    read = Rig.read(options.rig)
+    inputs = [options.rig, *read.files(), *([options.law] if options.law.endswith(".fmu") else [])]
+    for file in inputs if options.page and os.path.exists(options.page) else []:
+        if os.path.exists(file) and os.path.samefile(options.page, file):
+            raise BadInput(f"{options.page}: is the input {file}; it would be overwritten")
     seen_m = Sensors().range_m | ({"red": options.red_range} if options.red_range is not None else {})
     law_named(options.law)  # told before anything is computed
     done = track_tests(
-        Rig.read(options.rig), lambda: law_named(options.law), sensors=Sensors(delay_s=options.delay, range_m=seen_m), design=options.design
+        read, lambda: law_named(options.law), sensors=Sensors(delay_s=options.delay, range_m=seen_m), design=options.design
     )
     if options.page:
         done.write_page(options.page, f"{options.law}, camera {options.delay:g} s late")
@@ -56,7 +60,7 @@ def _adb(options: argparse.Namespace) -> str:
 
 def main() -> int:
     """phare rate. Exit codes: 0 done, 1 failed, 2 bad input."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="phare rate", description=f"iihs: the drive test of the IIHS as far as it is public; {UNOFFICIAL}. adb: a control law on the track "
         "tests of FMVSS 108 for adaptive beams.",
         epilog="Examples:\n  phare rate iihs --rig config/rigs/country_road.toml\n"
@@ -69,11 +73,15 @@ def main() -> int:
     iihs, adb = parser.add_argument_group("iihs"), parser.add_argument_group("adb")
     iihs.add_argument("--limits", help="TOML with targets and a glare curve of your own (docs/python.md)")
     iihs.add_argument("--high-beam-assist", action="store_true", help="the car has it: credited by [assist] of the limits")
-    adb.add_argument("--law", default="GlareFree", help="class of phare.laws, module:Class, or an FMU [%(default)s]")
-    adb.add_argument("--delay", type=float, default=0.0, metavar="S", help="how late the camera is, s [0]")
+    adb.add_argument("--law", help="class of phare.laws, module:Class, or an FMU [GlareFree]")
+    adb.add_argument("--delay", type=float, metavar="S", help="how late the camera is, s [0]")
     adb.add_argument("--red-range", type=float, metavar="M", help="from where the camera sees rear lamps, m [100]")
     adb.add_argument("--page", help="HTML file with lux over range on each track")
     options = parser.parse_args()
+    for other, group in (("iihs", iihs), ("adb", adb)):
+        for action in group._group_actions:
+            if other != options.test and not any(getattr(options, action.dest) is unset for unset in (None, False)):
+                parser.error(f"{action.option_strings[0]}: is of {other}, and {options.test} is asked for")
     try:
         if options.test == "adb":
             print(_adb(options))

@@ -22,7 +22,7 @@ import pandas as pd
 from .edges import APPROACHES, SPEEDS_MPS, oncoming_glare, visibility
 from .errors import BadInput
 from .rig import Rig
-from .toml_in import read_toml
+from .toml_in import place_in, read_toml
 
 PathLike = str | os.PathLike[str]
 _SIDES = {"right": "right edge", "left": "left edge"}
@@ -72,7 +72,7 @@ def _number(value: Any, least: float) -> bool:
 
 
 def _checked(file: Path, kind: str, count: int, row: Any) -> dict[str, Any]:
-    place = f"{file}: [[{kind}]] {count}"
+    place = f"{place_in(file, kind, count)}: [[{kind}]] {count}"
     if not isinstance(row, dict) or set(row) != set(_KEYS[kind]):
         raise BadInput(f"{place}: expected the keys {', '.join(_KEYS[kind])}")
     if row["approach"] not in APPROACHES:
@@ -102,7 +102,7 @@ def _no_twice(file: Path, kind: str, rows: list[dict[str, Any]]) -> list[dict[st
     for count, row in enumerate(rows, 1):
         what = tuple(row[key] for key in ("approach", "beam", "edge") if key in row)
         if what in seen:
-            raise BadInput(f"{file}: [[{kind}]] {count}: {', '.join(what)} stands there twice")
+            raise BadInput(f"{place_in(file, kind, count)}: [[{kind}]] {count}: {', '.join(what)} stands there twice")
         seen.add(what)
     return rows
 
@@ -115,7 +115,7 @@ def read_limits(file: PathLike) -> Limits:
         raise BadInput(f"{file}: expected [[visibility]], [[glare]], [assist] and nothing else")
     if assist is not None and (not isinstance(assist, dict) or set(assist) != {_CREDIT} or not _number(assist[_CREDIT], 0.0)
                                or assist[_CREDIT] > 1):
-        raise BadInput(f"{file}: [assist]: expected {_CREDIT}, 0 to 1, and nothing else")
+        raise BadInput(f"{place_in(file, 'assist')}: [assist]: expected {_CREDIT}, 0 to 1, and nothing else")
     rows = {
         kind: _no_twice(Path(file), kind, [_checked(Path(file), kind, n, row) for n, row in enumerate(document.get(kind, []), 1)])
         for kind in _KEYS

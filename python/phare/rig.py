@@ -44,6 +44,9 @@ def _each_emitter(table: dict[str, Any]) -> list[dict[str, Any]]:
     return [rest | {"emitter": number} for number in range(1, count + 1)]
 
 
+_OF_SOURCE = ("pixels", "pixel_map", "spectrum")  # further files of one
+
+
 @dataclass
 class Source:
     """One photometry file in a lamp. Degrees: yaw left, pitch up, roll right side down. `more`: all other keys of
@@ -141,7 +144,7 @@ class Rig:
             lamps = []
             for lamp in design.pop("lamp"):
                 sources = [
-                    Source(**_known(Source, s | {key: absolute(s[key]) for key in ("file", "pixels", "pixel_map", "spectrum") if key in s}))
+                    Source(**_known(Source, s | {key: absolute(s[key]) for key in ("file", *_OF_SOURCE) if key in s}))
                     for table in lamp.pop("source")
                     for s in _each_emitter(table)
                 ]
@@ -154,6 +157,12 @@ class Rig:
     def shipped(cls, name: str = "country_road") -> Rig:
         """A rig that comes with Phare: "country_road", "matrix" or "three_channels"."""
         return cls.read(shipped_file(f"rigs/{name}.toml"))
+
+    def files(self) -> list[str]:
+        """What it is read from beside itself: scene, vehicle, cockpit, traffic, and the files of every source."""
+        sources = [source for design in self.designs for lamp in design.lamps for source in lamp.sources]
+        of_sources = [path for source in sources for path in (source.file, *(source.more.get(key) for key in _OF_SOURCE))]
+        return [path for path in (self.scene, self.vehicle, self.cockpit, self.more.get("traffic"), *of_sources) if path]
 
     def design(self, name: str) -> Design:
         """The design of that name; BadInput names those there are."""

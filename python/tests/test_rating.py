@@ -135,3 +135,20 @@ def test_the_command_says_what_it_is_not(rig, tmp_path):
     only_low.designs[0].lamps[0].sources.pop()
     missing = say("iihs", "--rig", str(only_low.write(tmp_path / "low.toml")))
     assert missing.returncode == 2 and "design even has no high beam" in missing.stderr
+
+
+@pytest.mark.parametrize("words, said", [
+    (["iihs", "--page", "x.html"], "--page: is of adb, and iihs is asked for"), (["iihs", "--delay", "0"], "--delay: is of adb"),
+    (["adb", "--high-beam-assist"], "--high-beam-assist: is of iihs"), (["adb", "--speed", "9"], "unrecognized arguments: --speed"),
+    (["adb", "--page", "LAMP"], "it would be overwritten"),
+])
+def test_words_that_mean_nothing_are_refused_in_one_line(rig, words, said):
+    lamp = phare.Rig.read(rig).designs[0].lamps[0].sources[0].file
+    words = [lamp if word == "LAMP" else word for word in words]
+    before = Path(lamp).read_bytes()
+    ran = subprocess.run(
+        [sys.executable, "-m", "phare.rate", *words, "--rig", str(rig)], capture_output=True, text=True,
+        env={**os.environ, "PYTHONPATH": str(Path(phare.__file__).parents[1])},
+    )
+    assert ran.returncode == 2 and said in ran.stderr and ran.stderr.startswith("phare rate: ") and ran.stderr.count("\n") == 1
+    assert Path(lamp).read_bytes() == before

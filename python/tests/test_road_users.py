@@ -43,7 +43,7 @@ def test_a_file_of_road_users_is_read(tmp_path):
 def test_what_is_wrong_with_road_users_is_said(tmp_path, line, why):
     file = tmp_path / "users.toml"
     file.write_text(f"[[road_user]]\n{line}\n")
-    with pytest.raises(phare.BadInput, match=f"users.toml: road_user 1: .*{why}"):
+    with pytest.raises(phare.BadInput, match=f"users.toml:1: road_user 1: .*{why}"):
         phare.read_road_users(file)
 
 
@@ -108,6 +108,6 @@ def test_a_recorded_way_is_the_monotone_cubic_of_another_program(tmp_path):
 def test_what_is_wrong_with_a_recorded_way_is_said(tmp_path, text, why):
     (tmp_path / "p.csv").write_text(text)
     (tmp_path / "users.toml").write_text('[[road_user]]\npath = "p.csv"\n')
-    with pytest.raises(phare.BadInput, match=f"users.toml: road_user 1: path: .*{why}") as said:
+    with pytest.raises(phare.BadInput, match=f"users.toml:1: road_user 1: path: .*{why}") as said:
         phare.read_road_users(tmp_path / "users.toml")
     assert str(said.value).count("p.csv") == 1

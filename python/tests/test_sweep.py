@@ -61,6 +61,23 @@ def test_traffic_needs_no_law(tmp_path):
     assert f"--traffic {tmp_path.resolve() / 'cars.toml'}" in command_of(job, None)
 
 
+def test_a_grid_of_too_many_jobs_is_refused_before_it_is_made(tmp_path):
+    axes = "".join(f"'set.{name}' = {list(range(100))}\n" for name in "abcdef")
+    with pytest.raises(phare.BadInput, match="plan.toml:1: vary: makes more than 1000000 jobs"):
+        sweep.read_plan(plan_of(tmp_path, "[vary]\n" + axes))
+
+
+@pytest.mark.parametrize("text, line", [
+    ("# a plan\n\nfast = true\n", 3), ("[fixed]\nsize = '9x9'\n\n[vary]\n'aim' = 1\n", 5),
+    ("name = 'x'\n[fixed]\nlamb = 1\n[vary]\naim = [1]\n", 3),
+    ("kind = 'list'\n[[run]]\naim = 1\n[[run]]\nlevel = 'full'\nlamp = 'none.ies'\n", 6),
+    ("[vary]\naim = [1]\n[[measure]]\nname = 'a'\nat = [1, 2, 3]\n[[measure]]\nname = 'b'\n", 6),
+])
+def test_the_line_of_a_plan_is_named(tmp_path, text, line):
+    with pytest.raises(phare.BadInput, match=f"plan.toml:{line}: "):
+        sweep.read_plan(plan_of(tmp_path, text))
+
+
 def test_a_list_is_as_it_stands(tmp_path):
     plan = sweep.read_plan(plan_of(tmp_path, 'kind = "list"\n[[run]]\naim = -1\n[[run]]\nlevel = "full"\n'))
     assert [job.varied for job in plan.jobs] == [{"aim": -1}, {"level": "full"}] and plan.axes() == ["aim", "level"]
@@ -75,10 +92,19 @@ def test_a_list_is_as_it_stands(tmp_path):
     ("samples = 7\n[vary]\naim = [1]\n", "samples is of a Latin hypercube"), ("seed = 3\n[vary]\naim = [1]\n", "seed is of a Latin"),
     ("[fixed]\naim = -1\n[vary]\naim = [1]\n", "aim is fixed, and varies"),
     ("kind = 'latin-hypercube'\nsamples = 2\n[vary]\naim = { from = 2, to = 1 }\n", "expected a list or"), ("[vary\n", "Expected"),
+    ("fixed = 3\n", r"fixed = 3: expected a table"), ("vary = 3\n", "vary = 3: expected a table"), ("measure = 3\n", "measure = 3: expected"),
+    ("[vary]\naim = [1]\n[[measure]]\nname = 'a'\nat = ['a', 1, 2]\n", "at = .*: expected finite numbers"),
+    ("[vary]\naim = [1]\n[[measure]]\nname = 'a'\nat = 3\n", "at = 3: expected finite"),
+    ("[vary]\naim = [1]\n[[measure]]\nname = 'a'\nrange_lx = 'x'\n", "range_lx = 'x': expected a finite"),
+    ("[vary]\naim = [1]\n[[measure]]\nname = 'a'\nrange_lx = 1\nbeams = ['dim']\n", "expected some of position, low"),
+    ("[vary]\naim = [1]\n[[measure]]\nname = 'aim'\nrange_lx = 1\n", "'aim' is another column's name"), ("run = 3\n", "run = 3: expected"),
+    ("kind = 'latin-hypercube'\nsamples = true\n[vary]\naim = [1]\n", "samples = 1 to"), ("name = 3\n", "name = 3: expected a text"),
+    ("kind = 'latin-hypercube'\nsamples = 2\nseed = -1\n[vary]\naim = [1]\n", "seed = -1: expected a whole"),
+    ("kind = 'latin-hypercube'\nsamples = 2\n[vary]\naim = { from = 'a', to = 'b' }\n", "expected a list or"),
     ("rank_by = 'edge'\n[vary]\naim = [1]\n", "rank_by 'edge' is no column of the table; there are aim, frames"),
 ])
 def test_what_is_wrong_with_a_plan_is_said(tmp_path, text, why):
-    with pytest.raises(phare.BadInput, match=f"plan.toml: .*{why}"):
+    with pytest.raises(phare.BadInput, match=rf"plan.toml(:\d+)?: .*{why}"):
         sweep.read_plan(plan_of(tmp_path, text))
 
 

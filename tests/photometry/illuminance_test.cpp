@@ -71,12 +71,20 @@ TEST(PointsFile, KeepsColumnsAndAddsItsOwn) {
 
   const std::vector<Illuminance> results{{0.1, {0.1, 0.0}}, {3.0, {1.0, 2.0}}};
   const auto out = path.parent_path() / "out.csv";
-  ASSERT_TRUE(write_illuminance(out, *points, results).ok());
+  ASSERT_TRUE(write_illuminance(out, *points, 2, results).ok());
   EXPECT_EQ(test::content_of(out),
             "name,x_m,y_m,z_m,nx,ny,nz,note,illuminance_lx,illuminance_lx_1,illuminance_lx_2\n"
             "\"a, b\",1,2,3,0,0,-2,,0.10000000000000001,0.10000000000000001,0\n"
             "q,1e1,+2,3.5,1,1,0,x,3,1,2\n");
-  EXPECT_FALSE(write_illuminance("/nowhere/out.csv", *points, results).ok());
+  EXPECT_FALSE(write_illuminance("/nowhere/out.csv", *points, 2, results).ok());
+}
+
+TEST(PointsFile, OfNoPointHasAllColumns) {
+  const PointsFile none{"x_m,y_m,z_m,nx,ny,nz", {}};
+  const auto out = test::temporary_file("none.csv", "");
+  ASSERT_TRUE(write_illuminance(out, none, 2, {}, std::vector<HiddenBy>{}).ok());
+  EXPECT_EQ(test::content_of(out),
+            "x_m,y_m,z_m,nx,ny,nz,illuminance_lx,illuminance_lx_1,illuminance_lx_2,hidden_by_1,hidden_by_2\n");
 }
 
 TEST(PointsFile, RefusalsSayWhereAndWhy) {

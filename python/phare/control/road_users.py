@@ -33,7 +33,7 @@ import numpy as np
 import pandas as pd
 
 from ..errors import BadInput
-from ..toml_in import read_toml
+from ..toml_in import place_in, read_toml
 from .recorded_path import RecordedPath
 
 # Width, height, length in m: usual sizes, chosen by eye.
@@ -181,7 +181,7 @@ def read_road_users(file: str | os.PathLike[str]) -> list[RoadUser]:
     if set(document) != {"road_user"} or not isinstance(listed, list) or not all(isinstance(table, dict) for table in listed):
         raise BadInput(f"{file}: expected [[road_user]] and nothing else")
     folder = Path(file).resolve().parent
-    return [_road_user(table, f"{file}: road_user {number}", folder) for number, table in enumerate(listed, 1)]
+    return [_road_user(table, f"{place_in(file, 'road_user', number)}: road_user {number}", folder) for number, table in enumerate(listed, 1)]
 
 
 def _speeds(table: dict[str, object], place: str) -> tuple[tuple[float, float], ...]:

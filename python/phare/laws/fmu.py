@@ -7,10 +7,10 @@
 
 from __future__ import annotations
 
-import argparse
+import math
 import sys
 
-from ..command_line import leave
+from ..command_line import Parser, leave
 from ..control.fmu import Fmu
 from ..control.sensors import Sensors
 from ..control.serve import serve
@@ -20,7 +20,7 @@ from ..errors import BadInput, LawFailed, PhareError
 
 def main() -> int:
     """Exit codes: 0 done, 1 the drive failed, 2 bad input, or a unit that cannot be followed."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="python3 -m phare.laws.fmu", description="An FMI 3.0 co-simulation unit is the control law (docs/fmu-law.md). Without --out "
         "it reads LawInput and writes LawAnswer, as phare.Program wants it.",
     )
@@ -29,10 +29,16 @@ def main() -> int:
     parser.add_argument("--out", help="drive with it in lockstep, into this folder")
     parser.add_argument("--rig", help="rig file of that drive [the demo]")
     parser.add_argument("--traffic", help="road users that the camera sees, and the picture shows (TOML)")
-    parser.add_argument("--delay-s", type=float, default=0.0, help="of the camera [0]")
+    parser.add_argument("--delay-s", type=float, help="of the camera [0]")
     parser.usage = "%(prog)s [options] unit.fmu [-- further words for phare drive]"
     words, more = _parted(sys.argv[1:])
     options = parser.parse_args(words)
+    of_a_drive = {"--rig": options.rig, "--traffic": options.traffic, "--delay-s": options.delay_s, "--": more or None}
+    for flag, value in of_a_drive.items():
+        if value is not None and (options.out is None or options.list):
+            parser.error(f"{flag}: is of a drive, which --out asks for")
+    if options.delay_s is not None and not (math.isfinite(options.delay_s) and options.delay_s >= 0.0):
+        parser.error(f"--delay-s: {options.delay_s:g} is not 0 or more")
     try:
         law = Fmu(options.unit)
         if options.list:
@@ -40,7 +46,7 @@ def main() -> int:
         if options.out is None:
             serve(law)
             return 0
-        sensors = Sensors(options.traffic or (), delay_s=options.delay_s)
+        sensors = Sensors(options.traffic or (), delay_s=options.delay_s or 0.0)
         driven = drive(options.rig, traffic=options.traffic, out=options.out, controller=law, sensors=sensors, more=more)
         print(f"{driven.folder}: {int(driven.figures['frames'])} frames, pictures {driven.picture_hash}")
         return 0

@@ -6,7 +6,7 @@ import argparse
 import os
 import sys
 
-from ..command_line import leave
+from ..command_line import Parser, leave
 from ..errors import BadInput, PhareError
 from .dask_engine import Dask
 from .job import command_of
@@ -17,7 +17,7 @@ from .slurm_engine import Slurm
 
 def main() -> int:
     """Exit codes: 0 done, 1 a job has no figures, 2 bad input, 130 interrupted."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="phare sweep", description="Drives every job of a plan: table, ranking page, each row with the command that repeats it.",
         epilog="Example:\n  phare sweep config/examples/sweep.toml --out out/sweep",
         formatter_class=argparse.RawDescriptionHelpFormatter,

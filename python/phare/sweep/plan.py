@@ -10,12 +10,13 @@ import itertools
 import json
 import math
 import os
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from ..errors import BadInput
-from ..toml_in import read_toml
+from ..toml_in import place_in, read_toml
 
 # What a drive can be told. Of these the values are paths, relative to the plan.
 FILES = ("rig", "lamp", "lamp_high", "lamp_fog", "drive", "script", "log", "vehicle", "road", "traffic")
@@ -27,6 +28,11 @@ WORDS = (
 FIGURES = ("frames", "driven_s", "driven_m", "suspension_pitch_most_deg", "picture_mean", "high_share", "glare_s", "glare_of_s")
 _TOP = ("name", "kind", "seed", "samples", "rank_by", "rank", "fixed", "vary", "run", "measure")
 _KINDS = ("grid", "list", "latin-hypercube")
+_MOST_JOBS = 1_000_000
+_BEAMS = ("position", "low", "high", "fog", "daytime", "cornering")
+
+
+Place = Callable[[str], str]  # of a key: "file:line", and which table
 
 
 @dataclass(frozen=True)
@@ -88,90 +94,127 @@ def job_hash(job: Job, plan: Plan) -> str:
 
 
 def read_plan(file: str | os.PathLike[str]) -> Plan:
-    """Reads a plan; raises BadInput with file and reason."""
+    """Reads a plan; raises BadInput with file, line and reason."""
     here = Path(file)
     document = read_toml(file)
-    _only(document, _TOP, str(file))
+
+    def at(key: str) -> str:
+        return place_in(file, key=key)
+
+    _only(document, _TOP, at)
+    _kinds(document, at)
     kind = document.get("kind", "grid")
     if kind not in _KINDS:
-        raise BadInput(f"{file}: kind {kind!r}: expected one of {', '.join(_KINDS)}")
+        raise BadInput(f"{at('kind')}: kind {kind!r}: expected one of {', '.join(_KINDS)}")
     for key in ("seed", "samples"):
         if key in document and kind != "latin-hypercube":
-            raise BadInput(f"{file}: {key} is of a Latin hypercube, and kind is {kind!r}")
+            raise BadInput(f"{at(key)}: {key} is of a Latin hypercube, and kind is {kind!r}")
     for key in document.get("fixed", {}):
         if key in document.get("vary", {}):
-            raise BadInput(f"{file}: {key} is fixed, and varies")
+            raise BadInput(f"{place_in(file, 'fixed', key=key)}: {key} is fixed, and varies")
     folder = here.resolve().parent
-    fixed = _settings(document.get("fixed", {}), f"{file}: fixed", folder)
-    varied = _varied(document, kind, str(file))
+    fixed = _settings(document.get("fixed", {}), lambda key: f"{place_in(file, 'fixed', key=key)}: fixed", folder)
     jobs = []
-    for number, values in enumerate(varied, 1):
-        settings = {**fixed, **_settings(values, f"{file}: job {number}", folder)}
-        if settings.get("law") is None and any(key in settings for key in WORDS[7:]):
-            raise BadInput(f"{file}: job {number}: sensor_… is of a control law: give law")
+    for number, values in enumerate(_varied(document, kind, str(file)), 1):
+
+        def of_job(key: str, number: int = number) -> str:
+            there = place_in(file, "run", number, key) if kind == "list" else place_in(file, "vary", key=key)
+            return f"{there}: job {number}"
+
+        settings = {**fixed, **_settings(values, of_job, folder)}
+        sensor = next((key for key in WORDS[7:] if key in settings), None)
+        if settings.get("law") is None and sensor:
+            raise BadInput(f"{of_job(sensor)}: sensor_… is of a control law: give law")
         jobs.append(Job(number, settings, values))
-    measures = [_measure(table, f"{file}: measure {n}") for n, table in enumerate(document.get("measure", []), 1)]
+    measures = [
+        _measure(table, lambda key, n=n: f"{place_in(file, 'measure', n, key)}: measure {n}")
+        for n, table in enumerate(document.get("measure", []), 1)
+    ]
     names = [measure.name for measure in measures]
-    if len(set(names)) < len(names):
-        raise BadInput(f"{file}: two measures have one name")
     rank = document.get("rank", "most")
     if rank not in ("most", "least"):
-        raise BadInput(f"{file}: rank {rank!r}: most or least is best")
-    rank_by = str(document.get("rank_by", names[0] if names else ""))
-    plan = Plan(here.resolve(), str(document.get("name", here.stem)), jobs, measures, rank_by, rank == "most")
+        raise BadInput(f"{at('rank')}: rank {rank!r}: most or least is best")
+    rank_by = document.get("rank_by", names[0] if names else "")
+    plan = Plan(here.resolve(), document.get("name", here.stem), jobs, measures, rank_by, rank == "most")
     columns = [*names, *plan.axes(), *FIGURES]
+    for number, name in enumerate(names, 1):
+        if columns.count(name) > 1:
+            raise BadInput(f"{place_in(file, 'measure', number, 'name')}: measure {number}: {name!r} is another column's name already")
     if rank_by and rank_by not in columns:
-        raise BadInput(f"{file}: rank_by {rank_by!r} is no column of the table; there are {', '.join(columns)}")
+        raise BadInput(f"{at('rank_by')}: rank_by {rank_by!r} is no column of the table; there are {', '.join(columns)}")
     return plan
 
 
-def _only(table: dict[str, Any], known: tuple[str, ...], place: str) -> None:
+def _only(table: dict[str, Any], known: tuple[str, ...], at: Place) -> None:
     for key in table:
         if key not in known:
-            raise BadInput(f"{place}: unknown key {key}; there are {', '.join(known)}")
+            raise BadInput(f"{at(key)}: unknown key {key}; there are {', '.join(known)}")
 
 
-def _settings(table: dict[str, Any], place: str, folder: Path) -> dict[str, Any]:
+def _kinds(document: dict[str, Any], at: Place) -> None:
+    """Tables are tables, and words are words."""
+    for key, value in document.items():
+        if key in ("fixed", "vary") and not isinstance(value, dict):
+            raise BadInput(f"{at(key)}: {key} = {value!r}: expected a table")
+        if key in ("run", "measure") and not (isinstance(value, list) and all(isinstance(row, dict) for row in value)):
+            raise BadInput(f"{at(key)}: {key} = {value!r}: expected [[{key}]] tables")
+        if key in ("name", "rank_by") and not isinstance(value, str):
+            raise BadInput(f"{at(key)}: {key} = {value!r}: expected a text")
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _is_whole(value: Any) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+def _settings(table: dict[str, Any], at: Place, folder: Path) -> dict[str, Any]:
     """One value a key; paths become absolute. A lamp may have `,KEY=VALUE` behind its file, as --lamp has."""
     settings = {}
     for key, value in table.items():
         if key not in FILES + WORDS and not key.startswith("set."):
-            raise BadInput(f"{place}: unknown key {key}; there are {', '.join(FILES + WORDS)}, set.SETTING")
+            raise BadInput(f"{at(key)}: unknown key {key}; there are {', '.join(FILES + WORDS)}, set.SETTING")
         if isinstance(value, (list, dict)) or (isinstance(value, float) and not math.isfinite(value)):
-            raise BadInput(f"{place}: {key} = {value!r}: expected one value")
+            raise BadInput(f"{at(key)}: {key} = {value!r}: expected one value")
         if key in FILES or key == "law" and is_fmu(value):
             name, comma, rest = str(value).partition(",")
             there = (folder / name).resolve()
             if not there.is_file():
-                raise BadInput(f"{place}: {key}: {there} is no file")
+                raise BadInput(f"{at(key)}: {key}: {there} is no file")
             value = str(there) + comma + rest
         settings[key] = value
     return settings
 
 
-def _varied(document: dict[str, Any], kind: str, place: str) -> list[dict[str, Any]]:
+def _varied(document: dict[str, Any], kind: str, file: str) -> list[dict[str, Any]]:
     vary, runs = document.get("vary", {}), document.get("run", [])
     if (kind == "list") != bool(runs) or (kind == "list") == bool(vary):
-        raise BadInput(f"{place}: a list has [[run]] tables and no [vary]; grid and latin-hypercube have [vary] and no [[run]]")
+        raise BadInput(f"{file}: a list has [[run]] tables and no [vary]; grid and latin-hypercube have [vary] and no [[run]]")
     if kind == "list":
         return [dict(run) for run in runs]
     if kind == "grid":
         for key, values in vary.items():
             if not isinstance(values, list) or not values:
-                raise BadInput(f"{place}: vary: {key} = {values!r}: expected a list of values")
+                raise BadInput(f"{place_in(file, 'vary', key=key)}: vary: {key} = {values!r}: expected a list of values")
+        if math.prod(map(len, vary.values())) > _MOST_JOBS:
+            raise BadInput(f"{place_in(file, 'vary')}: vary: makes more than {_MOST_JOBS} jobs")
         return [dict(zip(vary, values)) for values in itertools.product(*vary.values())]
-    return _latin_hypercube(vary, document, place)
+    return _latin_hypercube(vary, document, file)
 
 
-def _latin_hypercube(vary: dict[str, Any], document: dict[str, Any], place: str) -> list[dict[str, Any]]:
+def _latin_hypercube(vary: dict[str, Any], document: dict[str, Any], file: str) -> list[dict[str, Any]]:
     """Numbers are drawn from {from, to}, one in each of `samples` equal parts; lists are gone through in equal shares."""
     try:
         from scipy.stats import qmc
     except ImportError as wrong:
-        raise BadInput(f"{place}: a Latin hypercube needs SciPy: apt-get install python3-scipy") from wrong
+        raise BadInput(f"{file}: a Latin hypercube needs SciPy: apt-get install python3-scipy") from wrong
     samples, seed = document.get("samples", 0), document.get("seed", 1)
-    if not isinstance(samples, int) or not 1 <= samples <= 1_000_000 or not isinstance(seed, int):
-        raise BadInput(f"{place}: a Latin hypercube has samples = 1 to 1000000, and seed a whole number")
+    if not _is_whole(samples) or not 1 <= samples <= _MOST_JOBS:
+        raise BadInput(f"{place_in(file, key='samples')}: a Latin hypercube has samples = 1 to {_MOST_JOBS}")
+    if not _is_whole(seed) or seed < 0:
+        raise BadInput(f"{place_in(file, key='seed')}: seed = {seed!r}: expected a whole number from 0")
     shares = qmc.LatinHypercube(d=len(vary), seed=seed).random(samples)
     rows = []
     for row in shares:
@@ -179,25 +222,36 @@ def _latin_hypercube(vary: dict[str, Any], document: dict[str, Any], place: str)
         for (key, axis), share in zip(vary.items(), row):
             if isinstance(axis, list) and axis:
                 values[key] = axis[int(share * len(axis))]
-            elif isinstance(axis, dict) and set(axis) == {"from", "to"} and axis["from"] < axis["to"]:
+            elif isinstance(axis, dict) and set(axis) == {"from", "to"} and _rises(axis["from"], axis["to"]):
                 values[key] = round(axis["from"] + float(share) * (axis["to"] - axis["from"]), 9)
             else:
-                raise BadInput(f"{place}: vary: {key} = {axis!r}: expected a list or {{ from = …, to = … }}")
+                place = place_in(file, "vary", key=key)
+                raise BadInput(f"{place}: vary: {key} = {axis!r}: expected a list or {{ from = …, to = … }}, rising")
         rows.append(values)
     return rows
 
 
-def _measure(table: dict[str, Any], place: str) -> Measure:
+def _rises(first: Any, last: Any) -> bool:
+    return _is_number(first) and _is_number(last) and first < last
+
+
+def _measure(table: dict[str, Any], place: Place) -> Measure:
     _only(table, tuple(Measure.__dataclass_fields__), place)
     name = table.get("name")
     if not isinstance(name, str) or not name:
-        raise BadInput(f"{place}: has no name")
-    at = tuple(float(value) for value in table.get("at", ()))
-    range_lx = float(table.get("range_lx", 0.0))
+        raise BadInput(f"{place('name')}: has no name")
+    for key in ("range_lx", "y_m", "z_m"):
+        if key in table and not _is_number(table[key]):
+            raise BadInput(f"{place(key)}: {key} = {table[key]!r}: expected a finite number")
+    at, range_lx = table.get("at", []), float(table.get("range_lx", 0.0))
+    if not isinstance(at, list) or not all(_is_number(value) for value in at):
+        raise BadInput(f"{place('at')}: at = {at!r}: expected finite numbers")
     if (len(at) in (3, 6)) == (range_lx > 0):
-        raise BadInput(f"{place}: either at = [x, y, z] or [x, y, z, nx, ny, nz], or range_lx above 0")
+        raise BadInput(f"{place('at')}: either at = [x, y, z] or [x, y, z, nx, ny, nz], or range_lx above 0")
     beams = table.get("beams", ["low"])
+    beams = [beams] if isinstance(beams, str) else beams
+    if not isinstance(beams, list) or not beams or not all(beam in _BEAMS for beam in beams):
+        raise BadInput(f"{place('beams')}: beams = {beams!r}: expected some of {', '.join(_BEAMS)}")
     return Measure(
-        name, tuple([beams] if isinstance(beams, str) else beams), at, range_lx, float(table.get("y_m", 0.0)),
-        float(table.get("z_m", 0.25)),
+        name, tuple(beams), tuple(map(float, at)), range_lx, float(table.get("y_m", 0.0)), float(table.get("z_m", 0.25))
     )

@@ -149,20 +149,19 @@ Result<PointsFile> read_points(const std::filesystem::path& path) {
   return points;
 }
 
-Status write_illuminance(const std::filesystem::path& path, const PointsFile& points,
-                         std::span<const Illuminance> illuminance, std::span<const HiddenBy> hidden) {
+Status write_illuminance(const std::filesystem::path& path, const PointsFile& points, std::size_t lamps,
+                         std::span<const Illuminance> illuminance, const std::optional<std::vector<HiddenBy>>& hidden) {
   assert(illuminance.size() == points.rows.size());
-  assert(hidden.empty() || hidden.size() == points.rows.size());
-  const std::size_t lamps = illuminance.empty() ? 0 : illuminance.front().lamps_lx.size();
+  assert(!hidden || hidden->size() == points.rows.size());
   std::string content = points.header + ",illuminance_lx";
   for (std::size_t k = 1; k <= lamps; ++k) content += ",illuminance_lx_" + std::to_string(k);
-  for (std::size_t k = 1; k <= lamps && !hidden.empty(); ++k) content += ",hidden_by_" + std::to_string(k);
+  for (std::size_t k = 1; k <= lamps && hidden; ++k) content += ",hidden_by_" + std::to_string(k);
   content += '\n';
   for (std::size_t i = 0; i < points.rows.size(); ++i) {
     content += points.rows[i].text + "," + digits_17(illuminance[i].total_lx);
     for (const double e : illuminance[i].lamps_lx) content += "," + digits_17(e);
-    if (!hidden.empty())
-      for (const std::string& name : hidden[i]) content += "," + csv_field(name);
+    if (hidden)
+      for (const std::string& name : (*hidden)[i]) content += "," + csv_field(name);
     content += '\n';
   }
   return write_whole_file(path, content);

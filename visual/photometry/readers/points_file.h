@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,10 +35,12 @@ Result<PointsFile> read_points(const std::filesystem::path& path);
 using HiddenBy = std::vector<std::string>;
 
 /// Writes the input's columns and illuminance_lx, illuminance_lx_1 … _n, with 17 significant digits, by
-/// write_whole_file. `illuminance` belongs to `points.rows`, row by row, all with the same number of lamps. `hidden`,
-/// as long, or empty: nothing stands in the light. It adds hidden_by_1 … _n, in double quotes where CSV asks for them.
-Status write_illuminance(const std::filesystem::path& path, const PointsFile& points,
-                         std::span<const Illuminance> illuminance, std::span<const HiddenBy> hidden = {});
+/// write_whole_file. `illuminance` belongs to `points.rows`, row by row, each of `lamps` lamps; a file without a point
+/// has all columns too. `hidden`, as long, where shadows were asked for: it adds hidden_by_1 … _n, in double quotes
+/// where CSV asks for them.
+Status write_illuminance(const std::filesystem::path& path, const PointsFile& points, std::size_t lamps,
+                         std::span<const Illuminance> illuminance,
+                         const std::optional<std::vector<HiddenBy>>& hidden = std::nullopt);
 
 /// One line of an angles file: columns h_deg,v_deg, the table's own two angles (for type C: C and gamma). A flat screen
 /// has no angles of its own: there they are azimuth and elevation, as in type A.
