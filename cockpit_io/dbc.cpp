@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdio>
 
 namespace phare {
 
@@ -170,6 +171,21 @@ bool encode(const DbcMessage& message, const DbcSignal& s, double value, CanFram
     raw = std::bit_cast<std::uint64_t>(scaled);
   }
   return encode_raw(message, s, raw, frame);
+}
+
+std::optional<double> nearest_value(const DbcSignal& signal, double value) {
+  CanFrame frame;  // the signal's bits alone
+  frame.length = CanFrame::kMaxLength;
+  const DbcMessage alone;
+  DbcSignal free = signal;
+  free.multiplexor.clear();
+  return encode(alone, free, value, frame) ? decode(alone, free, frame) : std::nullopt;
+}
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
 }
 
 std::uint32_t fd_length(std::uint32_t bytes) {

@@ -110,6 +110,12 @@ bool encode_raw(const DbcMessage& message, const DbcSignal& signal, std::uint64_
 /// value is not finite, does not fit the bits, or the frame is too short. Sets multiplexors as encode_raw() does.
 bool encode(const DbcMessage& message, const DbcSignal& signal, double value, CanFrame& frame);
 
+/// The value of the signal that is nearest to this one; nullopt: it is not finite or does not fit the bits.
+std::optional<double> nearest_value(const DbcSignal& signal, double value);
+
+/// Physical values as messages show them, to ten digits.
+std::string number_text(double value);
+
 /// The shortest length of a CAN FD frame that holds so many bytes: 0 … 8, 12, 16, 20, 24, 32, 48, 64 (ISO 11898-1).
 std::uint32_t fd_length(std::uint32_t bytes);
 

@@ -13,12 +13,6 @@ namespace {
 constexpr std::uint64_t kMostMoves = 40;  // of one signal are shown
 constexpr std::size_t kMostValues = 16;   // more of them: an angle or a pedal, not a switch
 
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
-}
-
 std::string id_text(std::uint32_t id, bool extended) {
   char text[16];
   std::snprintf(text, sizeof text, extended ? "%08X" : "%03X", id);

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -15,7 +16,6 @@ namespace {
 
 /// Gives a named value its number.
 Status look_up(const Dbc& dbc, const DbcSignal& signal, const std::string& place, NamedValue& value) {
-  if (value.name.empty()) return Done{};
   std::vector<std::string> names;
   for (const auto& [raw, name] : signal.value_names) {
     if (name == value.name) {
@@ -31,12 +31,32 @@ Status look_up(const Dbc& dbc, const DbcSignal& signal, const std::string& place
   return Error{place, unknown_name_reason("value", value.name, names) + " (of signal " + signal.name + ")"};
 }
 
+/// Gives a number the very value that the signal is decoded to: written 0.3, where the factor is 0.1, it is 3 × 0.1.
+Status settle(const DbcSignal& signal, const std::string& place, NamedValue& value) {
+  const auto nearest = nearest_value(signal, value.value);
+  const bool real = signal.type == DbcSignal::Type::kFloat || signal.type == DbcSignal::Type::kDouble;
+  // Of a step: a number in a file has as many digits as somebody wrote.
+  const double written_to = 1e-9 * (std::abs(signal.factor) + std::abs(value.value));
+  if (!nearest || (!real && std::abs(*nearest - value.value) > written_to))
+    return Error{place, "signal \"" + signal.name + "\" never is " + number_text(value.value) +
+                            (nearest ? "; next to it is " + number_text(*nearest)
+                                     : ": it has " + std::to_string(signal.length_bits) + " bits")};
+  value.value = *nearest;
+  return Done{};
+}
+
+/// What the mapping compares with the signal: names become numbers, and numbers values that the signal has.
 Status look_up_all(const Dbc& dbc, const DbcSignal& signal, ControlMapping& mapping) {
-  for (SignalLevel& level : mapping.levels) {
-    if (const Status status = look_up(dbc, signal, mapping.place, level.when); !status) return status;
-  }
-  for (NamedValue& value : mapping.on) {
-    if (const Status status = look_up(dbc, signal, mapping.place, value); !status) return status;
+  std::vector<NamedValue*> values;
+  for (SignalLevel& level : mapping.levels) values.push_back(&level.when);
+  for (NamedValue& value : mapping.on) values.push_back(&value);
+  const bool alone = mapping.fine_signal.empty() && mapping.sign_signal.empty();
+  for (NamedValue* value : values) {
+    const bool named = !value->name.empty();
+    const Status status = named   ? look_up(dbc, signal, mapping.place, *value)
+                          : alone ? settle(signal, mapping.place, *value)
+                                  : Status(Done{});
+    if (!status) return status;
   }
   return Done{};
 }

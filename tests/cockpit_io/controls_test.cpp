@@ -218,6 +218,14 @@ TEST(Controls, AutomaticHighBeamFromTheCarsCamera) {
   EXPECT_EQ(b.state().light_switch, LightSwitch::kLow) << "at once";
 }
 
+TEST(Controls, AWrittenValueIsThatOfTheSignalNearestToIt) {
+  Bench b(can(control("flash", "ANGLE", "on = [0.3, 0.7]\n")));  // 3 x 0.1 is not 0.3 in float64
+  for (const auto& [raw, on] : {std::pair{3, true}, {4, false}, {7, true}}) {
+    b.send({0, 0, 0, raw, 0});
+    EXPECT_EQ(b.state().flash, on) << raw;
+  }
+}
+
 // ---- what is refused
 
 TEST(Checks, AFrameWithAWrongCrcIsNotRead) {
@@ -262,6 +270,9 @@ TEST(CockpitErrors, AreSaidAtTheirLineAndNameTheNearest) {
   says(can(control("turn", "S0", "levels = { none = 0, left = \"pushd\" }\n")), "did you mean \"pushed\"?");
   says(can(control("turn", "S1", "levels = { none = 0, left = \"pushed\" }\n")), "has no value names");
   says(can(control("turn", "S0", "levels = { none = 0, left = 0 }\n")), "another level");
+  says(can(control("turn", "S0", "levels = { none = 0, left = 100000 }\n")), "\"S0\" never is 100000: it has ");
+  says(can(control("turn", "S0", "levels = { none = 0, left = -1 }\n")), "\"S0\" never is -1: it has ");
+  says(can(control("flash", "S0", "on = 0.5\n")), "\"S0\" never is 0.5; next to it is ");
   says(can(control("flash", "S0", "on = \"pull\"\n")), "did you mean \"pulled\"?");
   says(can(control("flash", "S0", "on = []\n")), "expected a finite number or a text");
   says(can(control("beam_lever", "S0", "levels = { neutral = 0, push = 1 }\nlatch = \"pusch\"\n")),
