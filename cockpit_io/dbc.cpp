@@ -182,7 +182,7 @@ std::optional<double> nearest_value(const DbcSignal& signal, double value) {
   return encode(alone, free, value, frame) ? decode(alone, free, frame) : std::nullopt;
 }
 
-std::string number_text(double value) {
+std::string physical_text(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.10g", value);
   return text;

@@ -114,7 +114,7 @@ bool encode(const DbcMessage& message, const DbcSignal& signal, double value, Ca
 std::optional<double> nearest_value(const DbcSignal& signal, double value);
 
 /// Physical values as messages show them, to ten digits.
-std::string number_text(double value);
+std::string physical_text(double value);
 
 /// The shortest length of a CAN FD frame that holds so many bytes: 0 … 8, 12, 16, 20, 24, 32, 48, 64 (ISO 11898-1).
 std::uint32_t fd_length(std::uint32_t bytes);

@@ -31,7 +31,7 @@ double physical(const DbcSignal& s, std::uint64_t raw) {
 
 std::string value_text(const DbcSignal* s, std::uint64_t raw) {
   if (s == nullptr) return std::to_string(raw);
-  std::string text = number_text(physical(*s, raw)) + (s->unit.empty() ? "" : " " + s->unit);
+  std::string text = physical_text(physical(*s, raw)) + (s->unit.empty() ? "" : " " + s->unit);
   const auto key = s->type == DbcSignal::Type::kSigned && s->length_bits < 64 && (raw >> (s->length_bits - 1)) != 0
                        ? static_cast<std::int64_t>(raw) - (std::int64_t{1} << s->length_bits)
                        : static_cast<std::int64_t>(raw);

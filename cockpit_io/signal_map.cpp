@@ -38,8 +38,8 @@ Status settle(const DbcSignal& signal, const std::string& place, NamedValue& val
   // Of a step: a number in a file has as many digits as somebody wrote.
   const double written_to = 1e-9 * (std::abs(signal.factor) + std::abs(value.value));
   if (!nearest || (!real && std::abs(*nearest - value.value) > written_to))
-    return Error{place, "signal \"" + signal.name + "\" never is " + number_text(value.value) +
-                            (nearest ? "; next to it is " + number_text(*nearest)
+    return Error{place, "signal \"" + signal.name + "\" never is " + physical_text(value.value) +
+                            (nearest ? "; next to it is " + physical_text(*nearest)
                                      : ": it has " + std::to_string(signal.length_bits) + " bits")};
   value.value = *nearest;
   return Done{};

@@ -322,9 +322,10 @@ void DriveRun::remember_restarts() {
 /// What Vulkan's validation found, as the processes say that draw; empty: nothing.
 std::string DriveRun::validation_messages() const {
   std::string found;
-  if (!kept()) return found;  // they have told it themselves
+  const std::filesystem::path said = stats_folder(options_, *files_);
+  if (said.empty()) return found;
   for (const std::string& name : facts_.process_names) {
-    const nlohmann::json stats = read_stats(options_.out, name);
+    const nlohmann::json stats = read_stats(said, name);
     const std::uint64_t count = stats.is_null() ? 0 : stats.value("validation_messages", std::uint64_t{0});
     if (count > 0)
       found += (found.empty() ? "" : "; ") + std::to_string(count) + " Vulkan validation messages in " + name;

@@ -39,6 +39,11 @@ void add_person(const Rig& rig, const DriveOptions& options, std::vector<Process
 
 }  // namespace
 
+fs::path stats_folder(const DriveOptions& options, const RunFiles& files) {
+  if (!options.out.empty()) return options.out;
+  return options.picture.validation ? files.folder() : fs::path{};
+}
+
 std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& options, const RunFiles& files) {
   const auto common = [&](const std::string& name) {
     std::vector<std::string> arguments{"--rig",       rig.file.string(), "--port-base", std::to_string(rig.port_base),
@@ -46,8 +51,8 @@ std::vector<ProcessSpec> processes_of(const Rig& rig, const DriveOptions& option
     if (options.open_bus) arguments.push_back("--open-bus");
     if (options.lockstep) arguments.push_back("--lockstep");
     if (!options.drive.empty()) arguments.insert(arguments.end(), {"--drive", options.drive});
-    if (!options.out.empty())
-      arguments.insert(arguments.end(), {"--stats", (fs::path(options.out) / (name + ".json")).string()});
+    if (const fs::path folder = stats_folder(options, files); !folder.empty())
+      arguments.insert(arguments.end(), {"--stats", (folder / (name + ".json")).string()});
     return arguments;
   };
   ProcessSpec cockpit{"cockpit", program_beside_us("phare-cockpit"), common("cockpit")};

@@ -18,6 +18,7 @@ class RunFiles {
   ~RunFiles();
 
   std::filesystem::path alive(const std::string& process) const { return folder_ / ("alive-" + process); }
+  const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path state(const std::string& process) const { return folder_ / (process + ".state"); }
 
  private:

@@ -87,22 +87,12 @@ class WindowTest : public testing::Test {
     while (!drive_->ended()) std::this_thread::sleep_for(5ms);
   }
 
-  void start(std::vector<std::string> arguments, const std::string& size = "320x180") {
-    std::vector<std::string> words{"-u",
-                                   "WAYLAND_DISPLAY",
-                                   "DISPLAY=" + display_->name(),
-                                   program("phare"),
-                                   "drive",
-                                   "--size",
-                                   size,
-                                   "--out",
-                                   (folder_ / "out").string(),
-                                   "--record",
-                                   (folder_ / "d.pcap").string(),
-                                   "--port-base",
-                                   std::to_string(port_base()),
-                                   "--log-level",
-                                   "error"};
+  void start(std::vector<std::string> arguments, const std::string& size = "320x180", bool kept = true) {
+    std::vector<std::string> words{
+        "-u", "WAYLAND_DISPLAY", "DISPLAY=" + display_->name(), program("phare"), "drive", "--size",
+        size, "--port-base",     std::to_string(port_base()),   "--log-level",    "error"};
+    if (kept)
+      words.insert(words.end(), {"--out", (folder_ / "out").string(), "--record", (folder_ / "d.pcap").string()});
     words.insert(words.end(), arguments.begin(), arguments.end());
     auto child = ChildProcess::start("/usr/bin/env", words);
     ASSERT_TRUE(child.ok());
@@ -458,6 +448,13 @@ TEST_F(WindowTest, WhatIsCountedInFramesWaitsForNobody) {
   start({"--frames", "3"});
   EXPECT_EQ(end(), 0);
   EXPECT_EQ(report_of(folder_ / "out")["processes"]["cockpit"]["source"]["name"], "drive") << "the demo, as ever";
+}
+
+TEST_F(WindowTest, WhatValidationFoundFailsADriveThatKeepsNothing) {
+  setenv("VK_LAYER_ENABLES", "VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT", 1);  // it finds something everywhere
+  start({"--frames", "3", "--lockstep", "--validation"}, "320x180", false);
+  unsetenv("VK_LAYER_ENABLES");
+  EXPECT_EQ(end(), 1);
 }
 
 }  // namespace
