@@ -28,7 +28,7 @@
 namespace phare {
 
 /// What one frame shows.
-struct Moment {
+struct FrameMoment {
   std::int64_t frame_index = -1;  ///< real time: -1
   SimTime time;
   CockpitState controls;
@@ -44,12 +44,12 @@ class Loop {
   bool over();
   void receive() { s_.bus.poll(); }
   void answer_probes();
-  std::optional<Moment> next_moment();
-  void draw(const Moment& moment);
-  void report(const Moment& moment);
-  void keep(const Moment& moment);
+  std::optional<FrameMoment> next_moment();
+  void draw(const FrameMoment& moment);
+  void report(const FrameMoment& moment);
+  void keep(const FrameMoment& moment);
   void take_audit();
-  void mind_the_stats(const Moment& moment);
+  void mind_the_stats(const FrameMoment& moment);
   void finish();
 
  private:
@@ -61,16 +61,16 @@ class Loop {
   void move_eye(KeyAction key);
   bool on_panel(double x_px, double y_px) const;
   void mind_the_panel();
-  void show_panel(const Moment& moment);
-  PanelFacts panel_facts(const Moment& moment, double since_s) const;
-  void measure(const Moment& moment);
-  std::vector<GlaringLamp> add_views(const Moment& moment, const Lamps& shining);
-  Still still_of(const Moment& moment) const;
+  void show_panel(const FrameMoment& moment);
+  PanelFacts panel_facts(const FrameMoment& moment, double since_s) const;
+  void measure(const FrameMoment& moment);
+  std::vector<GlaringLamp> add_views(const FrameMoment& moment, const Lamps& shining);
+  Still still_of(const FrameMoment& moment) const;
   void keep_stills();
-  void follow_desk(const Moment& moment);
-  bool is_ready(const Moment& moment);
-  void finish_change(const Moment& moment);
-  bool is_rehearsed(const Moment& moment);
+  void follow_desk(const FrameMoment& moment);
+  bool is_ready(const FrameMoment& moment);
+  void finish_change(const FrameMoment& moment);
+  bool is_rehearsed(const FrameMoment& moment);
   /// What a picture of a kind may come to in the drive.
   struct Rehearsed {
     std::optional<std::size_t> others{};  ///< lamps of others; none: those that shine now
@@ -84,10 +84,10 @@ class Loop {
     std::uint64_t rehearsals = 0, pipelines = 0;  ///< that found something to make, and made
     std::size_t at_once = 1;                      ///< to draw with in the next one
   };
-  bool is_rehearsed(const Rehearsed& as, const Desk& desk, Making& made, const Moment& moment);
-  CameraEye place_eye(const Moment& moment);
-  CockpitState light_to_show(const Moment& moment);
-  std::optional<FrameInput> without_new_lamps(const Moment& moment);
+  bool is_rehearsed(const Rehearsed& as, const Desk& desk, Making& made, const FrameMoment& moment);
+  CameraEye place_eye(const FrameMoment& moment);
+  CockpitState light_to_show(const FrameMoment& moment);
+  std::optional<FrameInput> without_new_lamps(const FrameMoment& moment);
   bool is_made(const Desk& desk) const;
   void give_up_change();
   std::vector<Rehearsed> rehearsals_now() const;
@@ -95,11 +95,11 @@ class Loop {
   std::vector<Rehearsed> rehearsals() const;
   std::vector<CockpitState> other_lights(const CockpitState& controls) const;
   std::vector<PlacedLamp> placed_by(const CockpitState& light, const VehicleState& pose);
-  Rehearsal rehearse(const Rehearsed& as, const Desk& desk, std::size_t at_once, const Moment& moment);
+  Rehearsal rehearse(const Rehearsed& as, const Desk& desk, std::size_t at_once, const FrameMoment& moment);
   void light_up(const CockpitState& controls);
   void upload(const std::vector<Lamps::Change>& changes);
   EffectChoices picked_effects() const;
-  void govern(const Moment& moment, double frame_ms);
+  void govern(const FrameMoment& moment, double frame_ms);
   std::vector<double> lux_by_lamp(std::span<const PlacedLamp> lamps, const MeasurePoint& at);
   std::vector<GlaringLamp> glare_in(const ViewInput& view, const VehicleState& pose, const Lamps& lamps) const;
   void mind_the_lamps(SimTime now);
@@ -109,24 +109,24 @@ class Loop {
   void warm_up_lights(FrameInput input, Clock::time_point until);
   void announce();
   void repeat_when_stalled();
-  std::optional<Moment> lockstep_moment();
-  std::optional<Moment> display_moment();
+  std::optional<FrameMoment> lockstep_moment();
+  std::optional<FrameMoment> display_moment();
   bool follows_another();
-  std::optional<Moment> begun_moment();
-  std::int64_t number_of(const Moment& moment) const;
-  bool wants_picture(const Moment& moment);
-  bool wants_stills(const Moment& moment) const;
-  std::string label(const Moment& moment) const;
+  std::optional<FrameMoment> begun_moment();
+  std::int64_t number_of(const FrameMoment& moment) const;
+  bool wants_picture(const FrameMoment& moment);
+  bool wants_stills(const FrameMoment& moment) const;
+  std::string label(const FrameMoment& moment) const;
   /// What was picked for the budget or the tolerance, as it holds now.
   std::string picked_line() const;
   /// What a lockstep drive fails by.
   std::string audit_failure() const;
-  void ask_audit(const Moment& moment);
+  void ask_audit(const FrameMoment& moment);
   void finish_audit();
-  void mind_the_road(const Moment& moment);
-  std::vector<std::string> overlay(const Moment& moment) const;
-  void mind_who_is_glared_at(DriveRow& row, const Moment& moment);
-  void log_frame(const Moment& moment);
+  void mind_the_road(const FrameMoment& moment);
+  std::vector<std::string> overlay(const FrameMoment& moment) const;
+  void mind_who_is_glared_at(DriveRow& row, const FrameMoment& moment);
+  void log_frame(const FrameMoment& moment);
   void keep_capture();
   void keep_other_designs();
   void write_stats(SimTime now);
@@ -151,7 +151,7 @@ class Loop {
   /// The moment of the stills, to draw it and the other designs in, and how the lamps shone then.
   struct Still {
     FrameInput driver;
-    Moment moment;
+    FrameMoment moment;
     Lamps lamps;
     Versus versus;
     std::string label;
@@ -160,7 +160,7 @@ class Loop {
   /// An audit that is drawn with a frame, and what that was of.
   struct AskedAudit {
     std::int64_t number;
-    Moment moment;
+    FrameMoment moment;
     ViewInput view;
     Lamps lamps;  ///< as they shone: by the time it is done they may shine otherwise
     PictureSize size;
@@ -191,7 +191,7 @@ class Loop {
   /// A picture that is read back, and what it was of.
   struct Capture {
     std::int64_t number;
-    Moment moment;
+    FrameMoment moment;
     std::string label;
   };
   std::optional<Capture> capture_;
@@ -227,9 +227,9 @@ class Loop {
   LitWith lit_with(const CockpitState& light, std::size_t others, bool glare) const;
   void is_ready_for(const Rehearsed& as);
   static std::vector<LitWith> comes_to(const LitWith& lit, std::size_t own);
-  bool may_show(const LitWith& lit, Rehearsed as, std::size_t own, const Moment& moment);
+  bool may_show(const LitWith& lit, Rehearsed as, std::size_t own, const FrameMoment& moment);
   std::optional<LitWith> nearest_ready(const LitWith& lit, std::size_t own);
-  bool is_drawn(const LitWith& lit, const Rehearsed& as, const Moment& moment);
+  bool is_drawn(const LitWith& lit, const Rehearsed& as, const FrameMoment& moment);
   std::vector<Desk> kinds_;
   std::set<std::pair<Kind, LitWith>> ready_for_;
   LitWith lit_with_;    ///< in the newest frame
@@ -250,7 +250,7 @@ class Loop {
   Clock::time_point panel_laid_out_{};
   bool eye_held_ = false;                       // by a button of the mouse that went down on the road
   std::size_t level_ = s_.options.begin_level;  // of options.levels, where the governor does not lead
-  std::optional<Moment> newest_;
+  std::optional<FrameMoment> newest_;
 };
 
 }  // namespace phare

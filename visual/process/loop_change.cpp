@@ -29,7 +29,7 @@ constexpr int kRests = 4;
 /// A picture of another kind may take pipelines that no picture before took, tenths of a second for all of them: they
 /// are made beside the frames, while the picture goes on as it was, then it follows. Where nothing is missing it
 /// follows at once, and in lockstep, where a slow frame harms nobody.
-void Loop::follow_desk(const Moment& moment) {
+void Loop::follow_desk(const FrameMoment& moment) {
   const bool live = !s_.options.lockstep && newest_;
   if (live && !same_kind(s_.desk, shown_)) {
     if (!is_ready(moment)) {
@@ -58,7 +58,7 @@ void Loop::give_up_change() {
 }
 
 /// For the picture that the desk asks for, as it would be drawn now.
-bool Loop::is_ready(const Moment& moment) {
+bool Loop::is_ready(const FrameMoment& moment) {
   if (change_ && !same_kind(change_->to, s_.desk)) give_up_change();
   if (is_made(s_.desk)) return true;
   if (!change_) change_ = Change{.to = s_.desk, .asked = Clock::now(), .now = lit_with_};
@@ -84,7 +84,7 @@ bool Loop::is_ready(const Moment& moment) {
 }
 
 /// The picture has followed: what the drive may come to in it, one step a frame.
-void Loop::finish_change(const Moment& moment) {
+void Loop::finish_change(const FrameMoment& moment) {
   if (!same_kind(change_->to, s_.desk)) {  // it was given up before it was shown
     give_up_change();
   } else if (change_->done == rehearsals().size()) {
@@ -96,7 +96,7 @@ void Loop::finish_change(const Moment& moment) {
 }
 
 /// The next of rehearsals(), which is done when it finds nothing left to make.
-bool Loop::is_rehearsed(const Moment& moment) {
+bool Loop::is_rehearsed(const FrameMoment& moment) {
   Change& change = *change_;
   const Rehearsed next = rehearsals()[change.done];
   if (std::exchange(rehearsed_, true)) return false;
@@ -110,7 +110,7 @@ bool Loop::is_rehearsed(const Moment& moment) {
 }
 
 /// One rehearsal of it; `made` goes on from the one before.
-bool Loop::is_rehearsed(const Rehearsed& as, const Desk& desk, Making& made, const Moment& moment) {
+bool Loop::is_rehearsed(const Rehearsed& as, const Desk& desk, Making& made, const FrameMoment& moment) {
   s_.renderer.finish();
   const Clock::time_point begin = Clock::now();
   const Rehearsal rehearsal = rehearse(as, desk, made.at_once, moment);
@@ -196,7 +196,7 @@ std::vector<PlacedLamp> Loop::placed_by(const CockpitState& light, const Vehicle
 }
 
 /// Where the car and its camera are now, after a seek far from where others were in the frame before.
-Rehearsal Loop::rehearse(const Rehearsed& as, const Desk& desk, std::size_t at_once, const Moment& moment) {
+Rehearsal Loop::rehearse(const Rehearsed& as, const Desk& desk, std::size_t at_once, const FrameMoment& moment) {
   FrameInput next = input_;
   next.part = {};
   next.more_views.clear();

@@ -16,7 +16,7 @@ constexpr auto kStatsEvery = 1s;
 }  // namespace
 
 /// What measures in the picture, over it and in probes.csv.
-void Loop::measure(const Moment& moment) {
+void Loop::measure(const FrameMoment& moment) {
   const PictureSize size = s_.renderer.picture_size();
   const bool wall = s_.desk.camera == CameraKind::kWall;
   measuring_.see({.time = moment.time,
@@ -73,7 +73,7 @@ EffectChoices Loop::picked_effects() const {
 }
 
 /// A step along the levels where the budget is missed, or is met with room. Who sets the method by hand leads himself.
-void Loop::govern(const Moment& moment, double frame_ms) {
+void Loop::govern(const FrameMoment& moment, double frame_ms) {
   Governor& governor = s_.governor;
   if (!governor.on()) return;
   if (s_.desk.method != governor.levels()[governor.now()].method) {
@@ -90,7 +90,7 @@ void Loop::govern(const Moment& moment, double frame_ms) {
 }
 
 /// With the frame that is drawn next, which does not wait for it.
-void Loop::ask_audit(const Moment& moment) {
+void Loop::ask_audit(const FrameMoment& moment) {
   const std::int64_t number = s_.options.lockstep ? moment.frame_index : drawn_frames_;
   const bool others_turn = versus_.lamps() != nullptr && Versus::has_turn(shown_, moment.time);
   if (over_ || others_turn || s_.options.audit_every <= 0 || number % s_.options.audit_every != 0 ||
@@ -135,7 +135,7 @@ void Loop::finish_audit() {
   take_audit();
 }
 
-void Loop::mind_the_stats(const Moment& moment) {
+void Loop::mind_the_stats(const FrameMoment& moment) {
   if (Clock::now() - stats_written_ > kStatsEvery) write_stats(moment.time);
 }
 

@@ -26,7 +26,7 @@ void set_beams(Renderer& renderer, const Lamps& lamps, const VehicleState& pose,
 
 }  // namespace
 
-void Loop::keep(const Moment& moment) {
+void Loop::keep(const FrameMoment& moment) {
   const std::int64_t eye = moment.time.ns / kEye_ns;
   if (!s_.eye.fixed() && (s_.options.lockstep || eye != newest_eye_)) {
     s_.album.keep_eye(s_.eye.json());
@@ -76,7 +76,7 @@ void Loop::keep_capture() {
 
 /// The frame as stills have it, whatever camera and layout are shown: the driver's eye over the whole picture, by the
 /// car's own light, with nothing over it.
-Loop::Still Loop::still_of(const Moment& moment) const {
+Loop::Still Loop::still_of(const FrameMoment& moment) const {
   FrameInput still = input_;
   still.camera = driver_camera(s_.channel(), moment.car.pose);
   still.part = {};
@@ -102,7 +102,7 @@ void Loop::finish() {
 }
 
 /// Glare of others at our driver's eyes, whatever camera is shown, and ours at theirs.
-void Loop::mind_who_is_glared_at(DriveRow& row, const Moment& moment) {
+void Loop::mind_who_is_glared_at(DriveRow& row, const FrameMoment& moment) {
   const VehicleState& car = moment.car.pose;
   const Camera driver = driver_camera(s_.channel(), car);
   const glm::dvec3 ahead = driver.world_from_eye[0];
@@ -114,7 +114,7 @@ void Loop::mind_who_is_glared_at(DriveRow& row, const Moment& moment) {
 }
 
 /// A row of drive.csv, and how long each design has shone.
-void Loop::log_frame(const Moment& moment) {
+void Loop::log_frame(const FrameMoment& moment) {
   DesignsLit& designs = s_.designs_lit;
   designs.see(s_.lamps.lit_text().empty() ? std::nullopt : std::optional(s_.lamps.design_index()), moment.time);
   if (versus_.lamps() != nullptr) designs.see_beside(s_.lamps.design_index(), versus_.lamps()->design_index());
@@ -172,7 +172,7 @@ void Loop::keep_other_designs() {
 
 /// With --frames and --video every one; else one each tenth of a second of simulated time for the video, of other
 /// channels one a second. In real time fewer, when they cannot be written as fast.
-bool Loop::wants_picture(const Moment& moment) {
+bool Loop::wants_picture(const FrameMoment& moment) {
   if (!s_.album.wanted() || over_) return false;
   if (s_.options.frames > 0) return (s_.options.lockstep ? moment.frame_index : drawn_frames_) < s_.options.frames;
   if (s_.album.busy()) return false;
@@ -183,7 +183,7 @@ bool Loop::wants_picture(const Moment& moment) {
 }
 
 /// Low beam at speed past the wanted time tells most; at the end whatever there is.
-bool Loop::wants_stills(const Moment& moment) const {
+bool Loop::wants_stills(const FrameMoment& moment) const {
   constexpr double kTellingSpeed_mps = 8.0;
   if (!s_.album.wanted() || s_.album.has_stills() || still_) return false;
   if (ended_ || over_) return true;
@@ -192,7 +192,7 @@ bool Loop::wants_stills(const Moment& moment) const {
          moment.car.pose.speed_mps > kTellingSpeed_mps;
 }
 
-std::string Loop::label(const Moment& moment) const {
+std::string Loop::label(const FrameMoment& moment) const {
   char text[120];
   std::snprintf(text, sizeof text, "%.1f s  %.0f km/h  %s%s%s", moment.time.seconds(), moment.car.pose.speed_mps * 3.6,
                 s_.lamps.lit_text().c_str(), s_.lamps.designs().size() > 1 ? "  " : "",

@@ -45,7 +45,7 @@ std::vector<Loop::LitWith> Loop::comes_to(const LitWith& lit, std::size_t own) {
 }
 
 /// Beside so many lamps of one's own.
-bool Loop::may_show(const LitWith& lit, Rehearsed as, std::size_t own, const Moment& moment) {
+bool Loop::may_show(const LitWith& lit, Rehearsed as, std::size_t own, const FrameMoment& moment) {
   if (s_.options.lockstep || !newest_ || versus_.lamps() != nullptr) return true;
   for (const LitWith& with : comes_to(lit, own)) {
     as.others = with.others;
@@ -55,7 +55,7 @@ bool Loop::may_show(const LitWith& lit, Rehearsed as, std::size_t own, const Mom
 }
 
 /// Once it was rehearsed with shadows and without. Of two at once the first is made first.
-bool Loop::is_drawn(const LitWith& lit, const Rehearsed& as, const Moment& moment) {
+bool Loop::is_drawn(const LitWith& lit, const Rehearsed& as, const FrameMoment& moment) {
   const std::pair what(shown_kind(), lit);
   if (ready_for_.contains(what)) return true;
   if (std::exchange(rehearsed_, true)) return false;
@@ -76,7 +76,7 @@ bool Loop::is_drawn(const LitWith& lit, const Rehearsed& as, const Moment& momen
 
 /// That of one's own lamps: as it is switched, be it without the lamps of others, or as it was. The low beam of a
 /// fail-safe waits for nothing.
-CockpitState Loop::light_to_show(const Moment& moment) {
+CockpitState Loop::light_to_show(const FrameMoment& moment) {
   const CockpitState asked = shown_by_desk(s_.desk, moment.controls);
   LitWith lit = lit_with(asked, lit_with_.others, lit_with_.glare);
   bool shows = asked.fail_safe || nearest_ready(lit, 0);
@@ -115,7 +115,7 @@ std::optional<Loop::LitWith> Loop::nearest_ready(const LitWith& lit, std::size_t
 
 /// The frame without the lamps of others or the glare that it lacks pipelines for; none: it lacks nothing. Where it
 /// lacks them for lamps that glare no more, it glares as before. What is measured and logged is as it shines.
-std::optional<FrameInput> Loop::without_new_lamps(const Moment& moment) {
+std::optional<FrameInput> Loop::without_new_lamps(const FrameMoment& moment) {
   const auto of_others = Traffic::is_theirs;
   LitWith lit = lit_with_;
   lit.others = static_cast<std::size_t>(std::ranges::count_if(input_.lamps, of_others));

@@ -93,7 +93,7 @@ void Loop::mind_the_panel() {
   }
 }
 
-PanelFacts Loop::panel_facts(const Moment& moment, double since_s) const {
+PanelFacts Loop::panel_facts(const FrameMoment& moment, double since_s) const {
   constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   PanelFacts facts{.lit = s_.lamps.lit_text(),
                    .design = s_.lamps.design_index(),
@@ -116,7 +116,7 @@ PanelFacts Loop::panel_facts(const Moment& moment, double since_s) const {
 }
 
 /// Lays the panel out over this frame, where it is shown; what it asks for is done before the next.
-void Loop::show_panel(const Moment& moment) {
+void Loop::show_panel(const FrameMoment& moment) {
   input_.gui = nullptr;
   if (!s_.window || !s_.desk.panel) {
     if (panel_) panel_->hide();

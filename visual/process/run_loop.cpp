@@ -91,8 +91,8 @@ void Loop::repeat_when_stalled() {
   s_.bus.send_again(kPayloadIndex<FrameReport>);
 }
 
-std::optional<Moment> Loop::next_moment() {
-  std::optional<Moment> moment = s_.options.lockstep ? lockstep_moment() : display_moment();
+std::optional<FrameMoment> Loop::next_moment() {
+  std::optional<FrameMoment> moment = s_.options.lockstep ? lockstep_moment() : display_moment();
   if (!moment || !s_.options.law || over_) return moment;
   const std::chrono::nanoseconds period(1'000'000'000 / s_.rig.frame_rate_hz);
   moment->controls = s_.law.lead(s_.bus, s_.lamps, moment->controls, period, s_.options.lockstep);
@@ -100,14 +100,14 @@ std::optional<Moment> Loop::next_moment() {
 }
 
 /// Frame k as soon as controls and pose of k are both here, and the answer of the control law where there is one.
-std::optional<Moment> Loop::lockstep_moment() {
+std::optional<FrameMoment> Loop::lockstep_moment() {
   const auto* controls = s_.bus.newest<CockpitState>();
   const auto* car = s_.bus.newest<VehicleState>();
   const bool both = controls != nullptr && car != nullptr && controls->value.frame_index == car->value.frame_index;
   const bool led = both && (!s_.options.law || LawLink::has_answered(s_.bus, car->value.frame_index));
   if (led && car->value.frame_index > drawn_index_) {
     drawn_index_ = car->value.frame_index;
-    return Moment{
+    return FrameMoment{
         drawn_index_, frame_time(drawn_index_, s_.rig.frame_rate_hz), controls->value, {car->value, 0.0, false}};
   }
   if (both && !led) s_.law.waits_for(car->value.frame_index);
@@ -117,7 +117,7 @@ std::optional<Moment> Loop::lockstep_moment() {
 }
 
 /// The pose of now, at the frame rate of the rig; of several channels the first says for all which moment that is.
-std::optional<Moment> Loop::display_moment() {
+std::optional<FrameMoment> Loop::display_moment() {
   if (!over_ && follows_another()) return begun_moment();
   if (!over_ && !s_.lock.may_begin(s_.bus, Clock::now())) {
     s_.bus.wait(5ms);
@@ -139,7 +139,7 @@ std::optional<Moment> Loop::display_moment() {
     return std::nullopt;
   }
   const SimTime shown = poses_.time_to_show(*time, newest_ ? std::optional(newest_->time) : std::nullopt);
-  Moment moment{-1, shown, controls_to_show(s_.bus, Clock::now()), *poses_.at(shown)};
+  FrameMoment moment{-1, shown, controls_to_show(s_.bus, Clock::now()), *poses_.at(shown)};
   moment.car.stale = car->stale;
   if (s_.lock.leads())
     s_.lock.begin(s_.bus, shown, {0, moment.controls, moment.car.pose, moment.car.stale}, Clock::now());
@@ -154,9 +154,9 @@ bool Loop::follows_another() {
   return s_.lock.follows(s_.bus, newest_ && beam(controls_to_show(s_.bus, now)) != beam(newest_->controls), now);
 }
 
-std::optional<Moment> Loop::begun_moment() {
+std::optional<FrameMoment> Loop::begun_moment() {
   if (const auto begun = s_.lock.next(s_.bus))
-    return Moment{-1, begun->time, begun->start.controls, {begun->start.pose, 0.0, begun->start.pose_stale}};
+    return FrameMoment{-1, begun->time, begun->start.controls, {begun->start.pose, 0.0, begun->start.pose_stale}};
   s_.bus.wait(5ms);
   return std::nullopt;
 }
@@ -190,7 +190,7 @@ std::vector<GlaringLamp> Loop::glare_in(const ViewInput& view, const VehicleStat
 
 /// The eyes besides the first, what shines into each, and what only some of them see. Returns the car's own tail lamps
 /// as the first eye sees them.
-std::vector<GlaringLamp> Loop::add_views(const Moment& moment, const Lamps& shining) {
+std::vector<GlaringLamp> Loop::add_views(const FrameMoment& moment, const Lamps& shining) {
   const VehicleState& pose = moment.car.pose;
   if (s_.desk.mirrors) input_.more_views = mirror_views(input_, s_.channel(), pose);
   const bool two = s_.desk.layout != Layout::kFull;
@@ -215,13 +215,13 @@ std::vector<GlaringLamp> Loop::add_views(const Moment& moment, const Lamps& shin
   return {input_.glare.begin() + of_others, input_.glare.end()};
 }
 
-CameraEye Loop::place_eye(const Moment& moment) {
+CameraEye Loop::place_eye(const FrameMoment& moment) {
   const CameraEye eye = first_eye(s_.desk);
   input_.camera = camera_of(eye, seen_by(eye, s_.channel(), s_.lamps, moment.car.pose, &measuring_.road()));
   return eye;
 }
 
-void Loop::draw(const Moment& moment) {
+void Loop::draw(const FrameMoment& moment) {
   rehearsed_ = false;
   place_eye(moment);
   light_up(light_to_show(moment));
@@ -316,7 +316,7 @@ void Loop::draw(const Moment& moment) {
   s_.switches.frame_finished(light_, moment.time, wall_now(), s_.options.lockstep ? s_.rig.frame_rate_hz : 0);
 }
 
-void Loop::report(const Moment& moment) {
+void Loop::report(const FrameMoment& moment) {
   FrameReport report{
       moment.frame_index,      s_.options.channel,        static_cast<std::uint32_t>(s_.rig.channels.size()),
       s_.stats.newest.wall_ms, s_.stats.newest.gpu_ms,    light_.light_changes,
@@ -329,12 +329,12 @@ void Loop::report(const Moment& moment) {
 
 /// Frames count from 0. In lockstep by simulated time, so that a visual started anew in the middle of a drive goes on
 /// with the number its predecessor had come to; in real time as they are drawn.
-std::int64_t Loop::number_of(const Moment& moment) const {
+std::int64_t Loop::number_of(const FrameMoment& moment) const {
   return s_.options.lockstep ? moment.frame_index : drawn_frames_ - 1;
 }
 
 /// Said once when the car leaves the road's end behind, by the first channel.
-void Loop::mind_the_road(const Moment& moment) {
+void Loop::mind_the_road(const FrameMoment& moment) {
   const RoadPlace place = road_end_.of(moment.car.pose);
   screens_.set_road(place);
   if (std::exchange(road_, place) == place || place == RoadPlace::kThere || s_.options.channel != 0) return;
@@ -342,7 +342,7 @@ void Loop::mind_the_road(const Moment& moment) {
                moment.car.pose.x_m, moment.car.pose.y_m);
 }
 
-std::vector<std::string> Loop::overlay(const Moment& moment) const {
+std::vector<std::string> Loop::overlay(const FrameMoment& moment) const {
   std::optional<MeasurePoint> under_mouse;
   if (const Window::Mouse mouse = s_.window->mouse();
       mouse.inside && s_.desk.lines && !on_panel(mouse.x_px, mouse.y_px)) {
@@ -371,7 +371,7 @@ void run_loop(Session& session) {
   Loop loop(session);
   while (!loop.over()) {
     loop.receive();
-    const std::optional<Moment> moment = loop.next_moment();
+    const std::optional<FrameMoment> moment = loop.next_moment();
     loop.answer_probes();
     if (!moment) continue;
     loop.draw(*moment);
