@@ -38,7 +38,7 @@ class Pacer {
   std::int64_t late_ns_ = 0;
 };
 
-/// True once SIGTERM or SIGINT has come. Copies show the same.
+/// True once SIGTERM, SIGINT or SIGHUP has come. Copies show the same.
 class StopFlag {
  public:
   bool requested() const;
@@ -48,7 +48,8 @@ class StopFlag {
   void request() const;
 };
 
-/// Handles SIGTERM and SIGINT from now on: sleeping calls return, the flag is set. SIGPIPE is ignored.
+/// Handles SIGTERM, SIGINT, and SIGHUP where it is not ignored, from now on: sleeping calls return, the flag is set.
+/// SIGPIPE is ignored.
 StopFlag install_stop_signals();
 
 }  // namespace phare

@@ -87,7 +87,7 @@ std::string what_is_missing(const PicturesNotKept& pictures, const Status& recor
   return missing;
 }
 
-void print_summary(const nlohmann::json& report, const std::string& out) {
+void print_summary(const nlohmann::json& report, const std::string& out, bool page_written) {
   const auto& summary = report["summary"];
   for (const auto& [process, how] : report["ends"].items()) {
     std::printf("%-10s %-10s", process.c_str(), how.get<std::string>().c_str());
@@ -111,7 +111,7 @@ void print_summary(const nlohmann::json& report, const std::string& out) {
                 summary["frames"].dump().c_str(), summary.value("drawn_s", 0.0), summary.value("frames_per_s", 0.0),
                 t.value("median", 0.0), t.value("p99", 0.0));
   }
-  std::printf("%s\n", (fs::path(out) / "index.html").c_str());
+  if (page_written) std::printf("%s\n", (fs::path(out) / "index.html").c_str());
 }
 
 /// Which effects a moment calls for, by the picture of every channel; no drive.
@@ -342,11 +342,12 @@ void DriveRun::judge() {
     facts_.why = "cut short: interrupted after " + std::to_string(static_cast<int>(facts_.wall_s + 0.5)) + " s";
   }
   bus_->poll();
-  if (facts_.exit_code != kExitDone) return;
-  for (const std::string& reason :
-       {audits_.first, validation_messages(), supervisor_->ended_badly(), what_is_missing(not_kept_, recorded_)})
+  if (facts_.exit_code == kExitBadInput) return;
+  // Who was hurried to his end did not choose it.
+  const std::string badly = facts_.exit_code == kExitDone ? supervisor_->ended_badly() : "";
+  for (const std::string& reason : {audits_.first, validation_messages(), badly, what_is_missing(not_kept_, recorded_)})
     if (!reason.empty()) facts_.why += (facts_.why.empty() ? "" : "; ") + reason;
-  if (!facts_.why.empty()) facts_.exit_code = kExitCheckFailed;
+  if (!facts_.why.empty() && facts_.exit_code == kExitDone) facts_.exit_code = kExitCheckFailed;
 }
 
 int DriveRun::finish() {
@@ -396,14 +397,14 @@ void DriveRun::write_report() {
       fs::path(options_.out) / "index.html",
       report_page(report, options_.out, options_.single_file ? PageFiles::kWithin : PageFiles::kBeside));
   if (!told_in_json || !page) {
-    std::fprintf(stderr, "phare: %s: the report cannot be written%s\n", options_.out.c_str(),
-                 page ? "" : (", " + page.error().reason).c_str());
+    std::fprintf(stderr, "phare: %s: the report: %s\n", options_.out.c_str(),
+                 page ? "report.json cannot be written" : page.error().reason.c_str());
     if (facts_.exit_code == kExitDone) facts_.exit_code = kExitCheckFailed;
   }
   if (options_.json) {
     std::printf("%s\n", report.dump(2).c_str());
   } else {
-    print_summary(report, options_.out);
+    print_summary(report, options_.out, page.ok());
   }
 }
 

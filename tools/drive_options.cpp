@@ -129,7 +129,7 @@ Result<RigsOwn> source_of(const Rig& rig) {
 /// Nobody has named a drive, and nobody sits at the window: that of the scene, recorded where it is, but for a road
 /// that a car has to answer. A moment that is to be explained is of a recording or of none.
 void take_demo_drive(const Rig& rig, DriveOptions& options) {
-  const bool poses_do = options.car_and_road.empty() || !options.level.empty() || options.explain;
+  const bool poses_do = options.car_and_road.empty() || options.level == "pose" || options.explain;
   if (const auto recording = demo_recording(rig, config_path("")); recording && poses_do) {
     options.drive = *recording;
   } else if (const auto script = demo_script(rig, config_path(""))) {

@@ -1,5 +1,6 @@
 """process: sweeps of short drives, stopped and gone on with. unit: plans."""
 
+import fcntl
 import io
 import os
 import signal
@@ -61,6 +62,18 @@ def test_traffic_needs_no_law(tmp_path):
     assert f"--traffic {tmp_path.resolve() / 'cars.toml'}" in command_of(job, None)
 
 
+def test_two_sweeps_at_once_need_two_folders(tmp_path):
+    plan = sweep.read_plan(plan_of(tmp_path, "[vary]\naim = [1]\n"))
+    out = tmp_path / "out"
+    out.mkdir()
+    held = os.open(out, os.O_RDONLY)
+    fcntl.flock(held, fcntl.LOCK_EX)
+    with pytest.raises(phare.BadInput, match="out: another sweep is at work there"):
+        sweep.run_plan(plan, out)
+    os.close(held)
+    assert not any((out / "rows").iterdir())
+
+
 def test_a_grid_of_too_many_jobs_is_refused_before_it_is_made(tmp_path):
     axes = "".join(f"'set.{name}' = {list(range(100))}\n" for name in "abcdef")
     with pytest.raises(phare.BadInput, match="plan.toml:1: vary: makes more than 1000000 jobs"):
@@ -101,6 +114,8 @@ def test_a_list_is_as_it_stands(tmp_path):
     ("kind = 'latin-hypercube'\nsamples = true\n[vary]\naim = [1]\n", "samples = 1 to"), ("name = 3\n", "name = 3: expected a text"),
     ("kind = 'latin-hypercube'\nsamples = 2\nseed = -1\n[vary]\naim = [1]\n", "seed = -1: expected a whole"),
     ("kind = 'latin-hypercube'\nsamples = 2\n[vary]\naim = { from = 'a', to = 'b' }\n", "expected a list or"),
+    ("rank_by = 'glare_s'\n[vary]\naim = [1]\n", "rank_by 'glare_s' is no column"),
+    ("rank_by = 'high_share'\n[vary]\naim = [1]\n", "is no column"), ("rank_by = 'level'\n[vary]\nlevel = ['full']\n", "no column of numbers"),
     ("rank_by = 'edge'\n[vary]\naim = [1]\n", "rank_by 'edge' is no column of the table; there are aim, frames"),
 ])
 def test_what_is_wrong_with_a_plan_is_said(tmp_path, text, why):

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "visual/letters.h"
+#include "visual/passes/wrap.h"
 
 namespace phare {
 
@@ -65,17 +66,6 @@ struct Pen {
   }
 };
 
-/// Words of a line that go into the width; the rest on lines below.
-void wrap(const Pen& pen, const std::string& line, float width_px, std::vector<std::string>& out) {
-  const char *at = line.c_str(), *const end = at + line.size();
-  do {
-    const char* stop = pen.font->CalcWordWrapPositionA(pen.size_px / pen.font->FontSize, at, end, width_px);
-    if (stop == at) stop = end;
-    out.emplace_back(at, stop);
-    for (at = stop; at != end && *at == ' ';) ++at;
-  } while (at != end);
-}
-
 /// Along the upper left edge, from `left_px` on and within `room_px` of the picture's. Returns where they end, 0
 /// without any.
 float draw_lines(Pen pen, float left_px, const ImVec2& room_px, const std::vector<std::string>& unwrapped) {
@@ -86,7 +76,8 @@ float draw_lines(Pen pen, float left_px, const ImVec2& room_px, const std::vecto
   while (true) {
     lines.clear();
     height = pen.size_px * kLine;
-    for (const std::string& line : unwrapped) wrap(pen, line, room_px.x - left_px - 4.0f * edge, lines);
+    const auto width_of = [&](const std::string& text) { return static_cast<double>(pen.width(text)); };
+    for (const std::string& line : unwrapped) wrap(line, room_px.x - left_px - 4.0f * edge, width_of, lines);
     if (2.0f * edge + height * static_cast<float>(lines.size()) <= room_px.y || pen.size_px * 0.95f < least_px) break;
     pen.size_px *= 0.95f;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <utility>
 
 namespace phare {
@@ -91,16 +92,13 @@ void DriveLog::begin(SimTime now) {
     }
     kept.resize(until_now);
   }
-  stream_.open(file_, std::ios::trunc);
-  stream_ << kept;
+  header_missing_ = !rows_.open(file_, false) || !rows_.append(kept);
 }
 
 bool DriveLog::write(const DriveRow& row) {
-  if (!stream_.is_open()) begin(row.time);
+  if (!rows_.is_open() || header_missing_) begin(row.time);
   if (!row.reach.empty()) newest_reach_ = row.time.ns / kReachEvery_ns;
-  stream_ << drive_row(row, columns_);
-  stream_.flush();
-  return stream_.good() || std::exchange(failed_, true);
+  return (!header_missing_ && rows_.append(drive_row(row, columns_))) || std::exchange(failed_, true);
 }
 
 }  // namespace phare

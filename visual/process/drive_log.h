@@ -3,11 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "config/base/appended_file.h"
 #include "visual/photometry/table/glare.h"
 #include "visual/process/lamps.h"
 #include "visual/process/road_marks.h"
@@ -59,9 +59,9 @@ class DriveLog {
   void begin(SimTime now);
 
   std::filesystem::path file_;
-  std::ofstream stream_;
+  AppendedFile rows_;
   std::int64_t newest_reach_ = -1;
-  bool going_on_ = false, failed_ = false;
+  bool going_on_ = false, failed_ = false, header_missing_ = false;
   DriveColumns columns_;
 };
 

@@ -22,6 +22,7 @@
 #include "visual/process/pose_buffer.h"
 #include "visual/process/screens.h"
 #include "visual/process/session.h"
+#include "visual/process/stall.h"
 #include "visual/process/verbs.h"
 #include "visual/process/versus.h"
 
@@ -109,6 +110,7 @@ class Loop {
   void warm_up_lights(FrameInput input, Clock::time_point until);
   void announce();
   void repeat_when_stalled();
+  void tell_of_stall();
   std::optional<FrameMoment> lockstep_moment();
   std::optional<FrameMoment> display_moment();
   bool follows_another();
@@ -179,6 +181,7 @@ class Loop {
   std::int64_t drawn_index_ = -1;  // lockstep
   std::int64_t drawn_frames_ = 0;
   std::int64_t newest_picture_ = -1, newest_eye_ = -1;  ///< which of their intervals of simulated time
+  std::optional<Stall> stall_;                          ///< from when the picture is ready
   Clock::time_point progress_ = Clock::now(), stats_written_ = Clock::now(), frame_end_{};
   Screens screens_;
   RoadEnd road_end_{s_.scene, s_.lane};

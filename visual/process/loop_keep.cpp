@@ -94,6 +94,8 @@ void Loop::finish() {
   s_.bus.on_datagram = nullptr;
   finish_audit();
   keep_capture();
+  // A drive that was ended before its telling moment: as it was last.
+  if (!still_ && newest_ && s_.album.wanted() && !s_.album.has_stills()) still_ = still_of(*newest_);
   if (still_ && !s_.album.has_stills()) keep_stills();
   keep_other_designs();
   s_.album.finish();

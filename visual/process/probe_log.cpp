@@ -27,17 +27,16 @@ ProbeLog::ProbeLog(std::filesystem::path folder, bool going_on) : going_on_(goin
 
 bool ProbeLog::write(const ProbeRow& row) {
   newest_ = row.time.ns / kEvery_ns;
-  if (!stream_.is_open()) {
+  if (!rows_.is_open()) {
     std::error_code ignored;
     const bool there = going_on_ && std::filesystem::exists(file_, ignored);
-    stream_.open(file_, there ? std::ios::app : std::ios::trunc);
+    (void)rows_.open(file_, there);
     if (there) probes_ = row.probes_lx.size();
   }
-  if (probes_ != row.probes_lx.size()) stream_ << probe_columns(row.probes_lx.size());
-  probes_ = row.probes_lx.size();
-  stream_ << probe_row(row);
-  stream_.flush();
-  return stream_.good() || std::exchange(failed_, true);
+  const bool named = probes_ == row.probes_lx.size();
+  const bool written = rows_.append((named ? "" : probe_columns(row.probes_lx.size())) + probe_row(row));
+  if (written) probes_ = row.probes_lx.size();
+  return written || std::exchange(failed_, true);
 }
 
 }  // namespace phare

@@ -3,11 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "config/base/appended_file.h"
 #include "visual/process/lamps.h"
 #include "visual/process/road_marks.h"
 
@@ -41,7 +41,7 @@ class ProbeLog {
  private:
   static constexpr std::int64_t kEvery_ns = 100'000'000;
   std::filesystem::path file_;
-  std::ofstream stream_;
+  AppendedFile rows_;
   std::int64_t newest_ = -1;
   std::optional<std::size_t> probes_;
   bool going_on_ = false, failed_ = false;

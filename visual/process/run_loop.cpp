@@ -26,6 +26,23 @@ constexpr auto kFreshWithin = 1s;       // the first picture waits so long for a
 
 }  // namespace
 
+/// Who cannot be heard, or cannot hear the others, so that no drive begins. Later on a drive may be paused.
+void Loop::tell_of_stall() {
+  if (drawn_frames_ > 0) return;
+  if (!stall_) stall_.emplace(Clock::now());
+  const auto waited = stall_->told_at(Clock::now());
+  if (!waited) return;
+  const auto* controls = s_.bus.newest<CockpitState>();
+  const auto* car = s_.bus.newest<VehicleState>();
+  const std::string silent = silent_ones(controls ? &controls->value : nullptr, car ? &car->value : nullptr,
+                                         drawn_index_, s_.options.lockstep);
+  if (silent.empty()) return;
+  spdlog::warn(
+      "no picture for {} s: nothing new from {}; do bind, send_to and the key of the rig's [bus] let it be heard, and "
+      "hear the others?",
+      waited->count(), silent);
+}
+
 bool Loop::over() {
   if (s_.window && !s_.window->poll()) ended_ = true;
   if (s_.window) mind_the_panel(), mind_the_keys(), mind_the_mouse();
@@ -64,6 +81,7 @@ void Loop::take(const Datagram& datagram) {
 
 void Loop::repeat_when_stalled() {
   if (Clock::now() - progress_ < kRepeatAfter) return;
+  tell_of_stall();
   progress_ = Clock::now();
   const auto* controls = s_.bus.newest<CockpitState>();
   const auto* car = s_.bus.newest<VehicleState>();

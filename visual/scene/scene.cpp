@@ -17,6 +17,7 @@
 
 #include "config/formats/gltf_file.h"
 #include "config/formats/gltf_uri.h"
+#include "visual/scene/long_edges.h"
 #include "visual/scene/materials.h"
 #include "visual/scene/scene_lights.h"
 #include "visual/scene/tangents.h"
@@ -32,25 +33,14 @@ constexpr double kFarthest_m = 1e8;  ///< Earth and back; beyond it a file is wr
 /// A small file can place one mesh many times; this many vertices (1.5 GB) are taken for an error.
 constexpr std::size_t kMostVertices = std::size_t{1} << 26;
 
-struct Corner {
-  glm::dvec3 position;
-  glm::vec3 normal{0.0f};
-};
-
-/// Corners of a primitive; looks only where its material has one.
-struct Corners {
-  std::vector<Corner> at;
-  std::vector<CornerLook> looks{};
-};
-
 /// Chunks of one primitive: triangles by cell, corners that are equal in the file stay one vertex within a chunk.
 class Cutter {
  public:
   Cutter(Scene& scene, std::string node, std::uint32_t material)
       : scene_(&scene), node_(std::move(node)), material_(material), look_(!scene.materials[material].look.none()) {}
 
-  void cut(const Corners& all, const std::vector<std::uint32_t>& indices) {
-    const std::vector<Corner>& corners = all.at;
+  void cut(const MeshCorners& all, const std::vector<std::uint32_t>& indices) {
+    const std::vector<MeshCorner>& corners = all.at;
     place_.assign(corners.size(), kNowhere);
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high(-low);
     for (const std::uint32_t i : indices) {
@@ -75,8 +65,8 @@ class Cutter {
  private:
   static constexpr std::uint32_t kNowhere = ~0u;
 
-  void add(const Corners& all, const std::vector<std::uint32_t>& indices) {
-    const std::vector<Corner>& corners = all.at;
+  void add(const MeshCorners& all, const std::vector<std::uint32_t>& indices) {
+    const std::vector<MeshCorner>& corners = all.at;
     SceneChunk chunk;
     chunk.node = node_;
     chunk.material = material_;
@@ -173,7 +163,7 @@ void reserve_for(const tinygltf::Model& model, const std::vector<MeshInstance>& 
 
 /// Texture coordinates and colours of the corners; those that a primitive has not are 0 and white.
 Status read_looks(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const ReadMaterial& material,
-                  Corners& corners) {
+                  MeshCorners& corners) {
   corners.looks.resize(corners.at.size());
   const auto attribute = [&](const std::string& name) {
     const auto found = primitive.attributes.find(name);
@@ -201,7 +191,7 @@ Status read_looks(const tinygltf::Model& model, const tinygltf::Primitive& primi
 /// Those of the file, turned by its node; where it has none, from the texture coordinates. `own`: its normals are taken,
 /// without which its tangents do not count (glTF 2.0, 3.7.2.1).
 Status read_tangents(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const glm::dmat3& turn,
-                     bool own, Corners& corners, const std::vector<std::uint32_t>& triangles) {
+                     bool own, MeshCorners& corners, const std::vector<std::uint32_t>& triangles) {
   const auto given = primitive.attributes.find("TANGENT");
   if (own && given != primitive.attributes.end()) {
     const Result<std::vector<glm::vec4>> read = read_vec4(model, given->second);
@@ -222,7 +212,7 @@ Status read_tangents(const tinygltf::Model& model, const tinygltf::Primitive& pr
   std::vector<glm::dvec3> positions;
   std::vector<glm::vec3> normals;
   std::vector<glm::vec2> uvs;
-  for (const Corner& corner : corners.at) positions.push_back(corner.position), normals.push_back(corner.normal);
+  for (const MeshCorner& corner : corners.at) positions.push_back(corner.position), normals.push_back(corner.normal);
   for (const CornerLook& look : corners.looks) uvs.push_back(look.uv);
   const std::vector<glm::i8vec4> tangents = tangents_of(positions, normals, uvs, triangles);
   for (std::size_t i = 0; i < tangents.size(); ++i) corners.looks[i].tangent = tangents[i];
@@ -231,7 +221,7 @@ Status read_tangents(const tinygltf::Model& model, const tinygltf::Primitive& pr
 
 /// One primitive where its node puts it.
 Status read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const MeshInstance& instance,
-                      const std::vector<ReadMaterial>& materials, Scene& scene) {
+                      const std::vector<ReadMaterial>& materials, Scene& scene, SceneNotes& notes) {
   const auto bad = [&instance](const std::string& what) { return Error{"", "node '" + instance.name + "': " + what}; };
   const auto position = primitive.attributes.find("POSITION");
   if (position == primitive.attributes.end()) return Done{};  // glTF 2.0, 3.7.2.1: such a primitive is not drawn
@@ -250,7 +240,7 @@ Status read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   // Normals go with the inverse transpose; the cofactor matrix has its direction and needs no division.
   const glm::dmat3 turn(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                         glm::cross(linear[0], linear[1]));
-  Corners corners;
+  MeshCorners corners;
   corners.at.reserve(positions->size());
   for (const glm::vec3& p : *positions) {
     const glm::dvec3 world(instance.world_from_mesh * glm::dvec4(glm::dvec3(p), 1.0));
@@ -282,7 +272,7 @@ Status read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
     }
   }
   if (!whole) {  // flat: each triangle has corners of its own
-    Corners own;
+    MeshCorners own;
     std::vector<std::uint32_t> kept;
     for (std::size_t i = 0; i + 2 < triangles->size(); i += 3) {
       const auto at = [&](std::size_t k) { return corners.at[(*triangles)[i + k]].position; };
@@ -302,6 +292,10 @@ Status read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
   if (materials[*material].material.look.relief())
     if (Status done = read_tangents(model, primitive, linear, whole, corners, *triangles); !done)
       return bad(done.error().text());
+  if (const double longest_m = halve_long_edges(corners, *triangles); longest_m > kLongestEdge_m)
+    notes.add("triangles stay up to " + std::to_string(static_cast<long long>(longest_m)) +
+                  " m long, and light on them may be off by more than stated",
+              instance.name);
   Cutter(scene, instance.name, *material).cut(corners, *triangles);
   return Done{};
 }
@@ -312,7 +306,7 @@ bool is_flat(std::span<const SceneVertex> vertices, std::span<const std::uint32_
   for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
     const SceneVertex &a = vertices[indices[i]], &b = vertices[indices[i + 1]], &c = vertices[indices[i + 2]];
     if (a.normal != b.normal || a.normal != c.normal) return false;
-    // Corners are rounded where they stand, a normal's parts to 2^-24 of its length.
+    // MeshCorners are rounded where they stand, a normal's parts to 2^-24 of its length.
     const glm::vec3 largest = glm::max(glm::abs(a.position_m), glm::max(glm::abs(b.position_m), glm::abs(c.position_m)));
     const double side_m = glm::max(glm::length(b.position_m - a.position_m), glm::length(c.position_m - a.position_m));
     const double rounding_m = 0x1p-23 * (glm::length(largest) + side_m);
@@ -398,7 +392,8 @@ Result<Scene> read_scene(const std::filesystem::path& file, const Progress& prog
     const MeshInstance& instance = (*instances)[i];
     tell(0.2 + 0.8 * static_cast<double>(i) / static_cast<double>(instances->size()));
     for (const tinygltf::Primitive& primitive : model->meshes[static_cast<std::size_t>(instance.mesh)].primitives)
-      if (Status done = read_primitive(*model, primitive, instance, materials, scene); !done) return bad(done.error());
+      if (Status done = read_primitive(*model, primitive, instance, materials, scene, notes); !done)
+        return bad(done.error());
   }
   tell(1.0);
   const bool used = std::any_of(scene.chunks.begin(), scene.chunks.end(),

@@ -24,7 +24,7 @@ WORDS = (
     "aim", "level", "friction", "roughness", "frames", "size", "law", "sensor_delay_s", "sensor_noise_deg", "sensor_miss_01",
     "sensor_seed", "sensor_red_range_m",
 )
-#: Numbers that a job's row has of its drive (phare.sweep.job); some of them where the job calls for them.
+#: Numbers that a job's row has of its drive (phare.sweep.job); some of them where the job has a law, or traffic too.
 FIGURES = ("frames", "driven_s", "driven_m", "suspension_pitch_most_deg", "picture_mean", "high_share", "glare_s", "glare_of_s")
 _TOP = ("name", "kind", "seed", "samples", "rank_by", "rank", "fixed", "vary", "run", "measure")
 _KINDS = ("grid", "list", "latin-hypercube")
@@ -136,13 +136,22 @@ def read_plan(file: str | os.PathLike[str]) -> Plan:
         raise BadInput(f"{at('rank')}: rank {rank!r}: most or least is best")
     rank_by = document.get("rank_by", names[0] if names else "")
     plan = Plan(here.resolve(), document.get("name", here.stem), jobs, measures, rank_by, rank == "most")
-    columns = [*names, *plan.axes(), *FIGURES]
+    columns = [*names, *plan.axes(), *_figures(jobs)]
     for number, name in enumerate(names, 1):
         if columns.count(name) > 1:
             raise BadInput(f"{place_in(file, 'measure', number, 'name')}: measure {number}: {name!r} is another column's name already")
     if rank_by and rank_by not in columns:
         raise BadInput(f"{at('rank_by')}: rank_by {rank_by!r} is no column of the table; there are {', '.join(columns)}")
+    if any(rank_by in job.varied and not _is_number(job.varied[rank_by]) for job in jobs):
+        raise BadInput(f"{at('rank_by')}: rank_by {rank_by!r} is no column of numbers")
     return plan
+
+
+def _figures(jobs: list[Job]) -> list[str]:
+    """Those that a job of these has."""
+    law = any("law" in job.settings for job in jobs)
+    glare = any("law" in job.settings and "traffic" in job.settings for job in jobs)
+    return [name for name in FIGURES if (law or name != "high_share") and (glare or not name.startswith("glare_"))]
 
 
 def _only(table: dict[str, Any], known: tuple[str, ...], at: Place) -> None:

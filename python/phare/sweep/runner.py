@@ -7,6 +7,7 @@ drove: the table is the same.
 from __future__ import annotations
 
 import contextlib
+import fcntl
 import os
 import sys
 import time
@@ -66,24 +67,43 @@ def run_plan(
     workers: drives at a time on this machine; None: one for each processor. only: this job alone. progress: where it is told, None:
     standard error. engine: who runs the jobs instead, Dask or Slurm. Raises BadInput, or Failed where an engine gives up.
     """
-    folder = Path(out).absolute()
-    for each in ("rows", "jobs"):
-        (folder / each).mkdir(parents=True, exist_ok=True)
-    remove_leftovers(folder)
     jobs = [job for job in plan.jobs if only is None or job.number == only]
     if not jobs:
         raise BadInput(f"{plan.file}: has {len(plan.jobs)} jobs, no number {only}")
+    folder = Path(out).absolute()
+    for each in ("rows", "jobs"):
+        (folder / each).mkdir(parents=True, exist_ok=True)
+    with _alone_in(folder):
+        return _run_jobs(plan, jobs, folder, engine or ThisMachine(workers), engine is not None, progress or sys.stderr)
+
+
+@contextlib.contextmanager
+def _alone_in(folder: Path) -> Generator[None, None, None]:
+    """Two sweeps in one folder would clear away what the other is at; the lock goes with the process that holds it."""
+    held = os.open(folder, os.O_RDONLY)
+    try:
+        try:
+            fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as wrong:
+            raise BadInput(f"{folder}: another sweep is at work there") from wrong
+        yield
+    finally:
+        os.close(held)
+
+
+def _run_jobs(plan: Plan, jobs: list[Job], folder: Path, engine: Engine, elsewhere: bool, progress: TextIO) -> Outcome:
+    remove_leftovers(folder)
     hashes = {job.number: job_hash(job, plan) for job in jobs}
     kept = {job.number: read_row(job, folder, hashes[job.number]) for job in jobs}
     rows = {number: row.row for number, row in kept.items() if row and not row.failed}
     todo = [job for job in jobs if job.number not in rows]
     for job in todo:  # one that failed is driven again: its row must not be taken for the new one
         (folder / "rows" / f"{job.name()}.json").unlink(missing_ok=True)
-    shown = Progress(len(jobs), progress or sys.stderr)
+    shown = Progress(len(jobs), progress)
     if rows:
         shown.tell(f"phare sweep: {len(rows)} of {len(jobs)} jobs have been driven before")
     work = Work(plan, todo, folder, lambda line: shown.tell(f"phare sweep: {line}"))
-    with contextlib.closing(_ended(engine or ThisMachine(workers), work)) as ended:
+    with contextlib.closing(_ended(engine, work)) as ended:
         for job, why in ended:
             row = read_row(job, folder, hashes[job.number])
             if row is None:
@@ -91,7 +111,7 @@ def run_plan(
                 row = Kept(failed_row(job, plan, why), [f"job {job.number}: {why}"])
                 write_row(job, folder, hashes[job.number], row)
                 work.tell(row.told[0])
-            elif engine is not None:  # elsewhere nobody heard it
+            elif elsewhere:  # nobody here heard it
                 for line in row.told:
                     work.tell(line)
             rows[job.number] = row.row
