@@ -292,6 +292,8 @@ void DriveRun::run(std::optional<Wish>& wish) {
   supervisor_->let_go();
   DriveProgress progress(frames_expected(options_, rig_, duration_));
   while (!stop_ && !wish && supervisor_->step()) {
+    // Whoever leaves one of several windows leaves the drive.
+    if (!options_.guide.empty() && supervisor_->one_has_left()) break;
     bus_->wait(std::chrono::milliseconds(10));
     bus_->poll();
     if (!options_.guide.empty()) wish = wishes_->take();

@@ -5,19 +5,24 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include "cockpit_io/dbc.h"
 #include "cockpit_io/feedback.h"
 #include "cockpit_io/signal_map.h"
 #include "cockpit_io/source.h"
 #include "config/base/input_files.h"
+#include "config/base/paths.h"
 #include "config/cockpit.h"
 #include "config/road/lane.h"
+#include "config/road/road_surface.h"
 #include "config/street_lamps.h"
 #include "config/traffic/road_users.h"
 #include "config/vehicle.h"
 #include "tools/lamp_design.h"
+#include "vehicle_dynamics/start_pose.h"
 #include "visual/fixed_light.h"
+#include "visual/gpu/pack_materials.h"
 #include "visual/photometry/bench/lamp_aim.h"
 #include "visual/photometry/bench/lint.h"
 #include "visual/photometry/bench/table_end.h"
@@ -70,17 +75,31 @@ class Checker {
     for (const std::string& note : scene->notes) found_.notes.push_back(file.string() + ": " + note);
     // Its own lamps' photometry files, too.
     if (const auto light = FixedLight::of(*scene, {}, std::nullopt, Reflected::kOff); !light) problem(light.error());
+    fits_device(*scene);
     std::error_code ignored;
     const fs::path lane = lane_file_of(file);
-    if (!fs::exists(lane, ignored))
+    CarState start;
+    if (!fs::exists(lane, ignored)) {
       found_.warnings.push_back(lane.string() + ": no such file: the car starts at the scene's origin");
-    const bool road = std::ranges::any_of(scene->chunks, [](const SceneChunk& chunk) {
-      return chunk.node.starts_with("road") || chunk.node.starts_with("ground");
-    });
-    if (!road)
-      found_.warnings.push_back(file.string() +
-                                ": no node whose name begins with road or ground: the car drives on a "
-                                "plane");
+    } else if (const auto on_lane = start_of_lane(lane); on_lane) {
+      start = *on_lane;
+    } else {
+      problem(on_lane.error());
+    }
+    const auto ground = RoadSurface::read(file);
+    if (!ground) return problem(ground.error());
+    if (const std::string why = no_ground_below(*ground, start.x_m, start.y_m); !why.empty())
+      found_.warnings.push_back(file.string() + ": " + why);
+  }
+
+  /// As many materials as a device holds, with those of our own road users.
+  void fits_device(const Scene& scene) {
+    const auto movers = read_scene(generated_dir() / "scenes/road_users.glb");
+    try {
+      (void)pack_materials(scene, movers ? *movers : Scene{});
+    } catch (const std::runtime_error& too_many) {
+      problem({scene.file.string(), too_many.what()});
+    }
   }
 
   void traffic(const Rig& rig) {

@@ -79,6 +79,10 @@ bool Supervisor::step() {
   return !over;
 }
 
+bool Supervisor::one_has_left() const {
+  return std::ranges::any_of(processes_, [](const Watched& process) { return process.done; });
+}
+
 bool Supervisor::look_after(Watched& process) {
   const auto now = Clock::now();
   if (process.due && now >= *process.due) {

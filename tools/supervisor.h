@@ -57,6 +57,8 @@ class Supervisor {
 
   /// Looks after the processes once. False when the drive is over: outcome() is then set and end_all() is due.
   bool step();
+  /// Whether one that draws has ended by itself while others go on: its window was closed.
+  bool one_has_left() const;
 
   /// SIGTERM to all, who are also set going again should they be stopped, SIGKILL to those still there after `grace`.
   /// Returns when none runs, or half a second after that at the latest: what the kernel itself does not let go of is

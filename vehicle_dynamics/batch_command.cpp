@@ -190,6 +190,11 @@ const Use kUses[] = {{"--rig", {Run::kLive}},
                      {"--lockstep", {Run::kLive}},
                      {"--drive", {Run::kLive}},
                      {"--stats", {Run::kLive}},
+                     {"--state", {Run::kLive}},
+                     {"--alive", {Run::kLive}},
+                     {"--log-level", {Run::kLive}},
+                     {"--open-bus", {Run::kLive}},
+                     {"--wait-for-picture", {Run::kLive}},
                      {"--port-base", {Run::kLive}},
                      {"--level", {Run::kLive, Run::kBatch}},
                      {"--levelling", {Run::kLive, Run::kBatch}},
@@ -238,6 +243,10 @@ Status BatchCommand::options_fit() const {
     if (app.count(use.option) > 0 && std::find(use.runs.begin(), use.runs.end(), run) == use.runs.end())
       return Error{use.option,
                    named ? std::string("means nothing with ") + named : "belongs to a run without a rig, see --batch"};
+  if (app.count("--seed") > 0 && options_->roughness.empty())
+    return Error{"--seed", "is that of --roughness, which is not given"};
+  if (app.count("--envelope-m") > 0 && !is_csv(options_->road))
+    return Error{"--envelope-m", "smoothes a height profile, and --road gives none"};
   if (options_->integrator == "reference" || options_->work_precision) return ReferenceIntegrator::there();
   return Done{};
 }
@@ -378,10 +387,6 @@ int BatchCommand::run(const std::string& level_name) const {
   if (*level == Level::kPose)
     return fail("phare-dynamics", {"--level", "pose replays a drive; a batch run moves a model"});
   if (const Status used = level_uses(*o.app, *level); !used) return fail("phare-dynamics", used.error());
-  if (given("--seed") && o.roughness.empty())
-    return fail("phare-dynamics", {"--seed", "is that of --roughness, which is not given"});
-  if (given("--envelope-m") && !o.road.ends_with(".csv"))
-    return fail("phare-dynamics", {"--envelope-m", "smoothes a height profile, and --road gives none"});
   options.level = *level;
   Result<VehicleParams> vehicle = read_vehicle(o.vehicle);
   if (!vehicle) return fail("phare-dynamics", vehicle.error());
@@ -429,6 +434,8 @@ int BatchCommand::run(const std::string& level_name) const {
       if (given(option)) return fail("phare-dynamics", {option, "the inputs give the road's heights already"});
   if (const Status read = read_road(o.road, conditions(), surface, road); !read)
     return fail("phare-dynamics", read.error());
+  if (*level == Level::kKinematic && is_csv(o.road) && !road.friction.empty() && road.profiles.empty())
+    return fail("phare-dynamics", {o.road, "has friction alone, and level kinematic has no tyres"});
   options.road = &road;
 
   const unsigned columns = options.columns;

@@ -29,6 +29,12 @@ Result<Begin> begin_of(const Rig& rig, const BeginOptions& options) {
   if (*level == Level::kPose) {
     if (options.drive_file.empty()) return Error{"--level", "pose replays a drive: give --drive FILE"};
     if (begin.setup.track.empty()) return Error{options.drive_file, "holds no VehicleState to replay"};
+    const Conditions& c = options.conditions;
+    if (c.friction || !c.roughness.empty() || !c.csv_file.empty())
+      return Error{c.friction             ? "--friction"
+                   : !c.roughness.empty() ? "--roughness"
+                                          : "--road",
+                   "means nothing to recorded poses, which level pose replays"};
     return begin;
   }
 
@@ -49,9 +55,6 @@ Result<Begin> begin_of(const Rig& rig, const BeginOptions& options) {
     Result<RoadSurface> road = RoadSurface::read(rig.scene_file);
     if (!road) return road.error();
     begin.setup.road = std::move(*road);
-    if (begin.setup.road.triangle_count() == 0)
-      spdlog::warn("{}: no node whose name begins with road or ground; the car drives on a plane",
-                   rig.scene_file.string());
   }
 
   if (const Status laid = lay(options.conditions, rig.scene_file, begin.setup.on_top); !laid) return laid.error();
@@ -73,6 +76,9 @@ Result<Begin> begin_of(const Rig& rig, const BeginOptions& options) {
   } else {
     spdlog::info("no lane file {}; the car starts at the origin", lane.string());
   }
+  const std::string nowhere =
+      rig.scene_file.empty() ? "" : no_ground_below(begin.setup.road, begin.state.x_m, begin.state.y_m);
+  if (!nowhere.empty()) spdlog::warn("{}: {}", rig.scene_file.string(), nowhere);
   return begin;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "config/formats/gltf_file.h"
@@ -239,6 +240,16 @@ std::optional<RoadPoint> RoadSurface::at(double x_m, double y_m) const {
   if (!facet) return std::nullopt;
   const double length = std::sqrt(facet->slope_x * facet->slope_x + facet->slope_y * facet->slope_y + 1.0);
   return RoadPoint{z, {-facet->slope_x / length, -facet->slope_y / length, 1.0 / length}, facet->road};
+}
+
+std::string no_ground_below(const RoadSurface& surface, double x_m, double y_m) {
+  if (surface.triangle_count() == 0) return "no node whose name begins with road or ground: the car drives on a plane";
+  if (surface.at(x_m, y_m)) return "";
+  char where[64];
+  std::snprintf(where, sizeof where, "(%.1f, %.1f) m", x_m, y_m);
+  return std::string("no road or ground below the start ") + where +
+         ": the car drives on a plane there; is the scene in metres, with the axes of glTF (y up), and the start on "
+         "it?";
 }
 
 }  // namespace phare

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "config/base/result.h"
@@ -82,5 +83,8 @@ class RoadSurface {
   std::int64_t columns_ = 0, rows_ = 0;
   bool has_friction_ = false;
 };
+
+/// Why a car at (x, y) stands on none of it, for a person to read; empty: it does.
+std::string no_ground_below(const RoadSurface& surface, double x_m, double y_m);
 
 }  // namespace phare

@@ -2,9 +2,11 @@
 #include "visual/process/drive_log.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <numeric>
 #include <sstream>
@@ -40,6 +42,29 @@ DriveRow row_of(std::int64_t frame) {
       .frame = frame, .time = SimTime{frame * 16'666'667}, .lit = "low", .design = "a, \"b\"", .cutoff_m = 0.41};
   if (frame % 6 == 0) row.reach = {{1.0, 80.0, 90.0}, {3.0, 50.0, 60.0}, {5.0, 40.0, 45.5}};
   return row;
+}
+
+TEST(DriveLog, ARowThatTheDiskDoesNotTakeLeavesNoHalfOfIt) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("phare_full_disk_" + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  DriveLog log(folder, false);
+  ASSERT_TRUE(log.write(row_of(0)));
+  const auto whole = fs::file_size(folder / "drive.csv");
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handled = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit full{whole + 20, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &full), 0);
+  EXPECT_FALSE(log.write(row_of(1))) << "said once";
+  EXPECT_TRUE(log.write(row_of(2)));
+  EXPECT_EQ(fs::file_size(folder / "drive.csv"), whole);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handled);
+  EXPECT_TRUE(log.write(row_of(3)));
+  const auto lines = lines_of(folder / "drive.csv");
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[2] + "\n", drive_row(row_of(3), {}));
+  fs::remove_all(folder);
 }
 
 TEST(DriveLog, TrafficHasColumnsOfItsOwn) {

@@ -63,7 +63,8 @@ PackedMaterials pack_materials(const Scene& standing, const Scene& moving) {
   for (const Scene* scene : {&standing, &moving})
     for (const SceneMaterial& material : scene->materials) packed.push_back(pack_material(material, sheetings));
   if (packed.size() > shader::kMaxMaterials)
-    throw std::runtime_error(std::to_string(packed.size()) + " materials, at most " +
+    throw std::runtime_error(std::to_string(packed.size()) + " materials, " + std::to_string(moving.materials.size()) +
+                             " of them of people, animals and vehicles; at most " +
                              std::to_string(shader::kMaxMaterials) + " are drawn");
   if (sheetings.size() > shader::kMaxSheetings)
     throw std::runtime_error(std::to_string(sheetings.size()) +

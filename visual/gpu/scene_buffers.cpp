@@ -16,6 +16,7 @@
 #include <tuple>
 
 #include "config/base/conventions.h"
+#include "visual/gpu/pack_materials.h"
 #include "visual/scene/far_mesh.h"
 #include "visual/scene/refine.h"
 

@@ -127,6 +127,7 @@ class Loop {
   void finish_audit();
   void mind_the_road(const FrameMoment& moment);
   std::vector<std::string> overlay(const FrameMoment& moment) const;
+  std::vector<std::string> moving_lines() const;
   void mind_who_is_glared_at(DriveRow& row, const FrameMoment& moment);
   void log_frame(const FrameMoment& moment);
   void keep_capture();

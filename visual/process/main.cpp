@@ -209,7 +209,8 @@ int draw_channel(VisualOptions options) {
 
   std::optional<Window> window;
   if (!options.headless) {
-    Result<Window> opened = Window::open("Phare", options.width_px, options.height_px);
+    Result<Window> opened = Window::open(rig->channels.size() > 1 ? "Phare: " + channel.name : "Phare",
+                                         options.width_px, options.height_px);
     if (!opened) return refuse(opened.error());
     window = std::move(*opened);
   }

@@ -271,7 +271,8 @@ void Sheet::lamps() {
   if (button("as in the rig", "these lamps as the rig file has them\nphare control reset \"" + lamp.name + "\""))
     commands_.push_back(RigControl{RigControl::Reset{lamp.name}});
   ImGui::SameLine();
-  if (button("all as in the rig", "all lamps as the rig file has them\nphare control reset"))
+  if (button("all as in the rig",
+             "places and turns of all lamps as the rig file has them; their light stays\nphare control reset"))
     commands_.push_back(RigControl{RigControl::Reset{}});
   ImGui::SameLine();
   save();
@@ -359,8 +360,7 @@ void Sheet::view() {
   ImGui::SameLine();
   flag("mirrors", "mirrors", desk.mirrors, key_of_setting(KeyAction::kMirrors));
   ImGui::SameLine();
-  flag("reach", "reach", desk.reach, "how far 1, 3 and 5 lx reach along the lane's edges");
-  ImGui::SameLine();
+  flag("reach", "reach", desk.reach, "how far 1, 3 and 5 lx reach along the lane's edges");  // no room for six in a row
   flag("plot", "plot", desk.plot, key_of_setting(KeyAction::kPlot));
   ImGui::SameLine();
   flag("lines", "text", desk.lines, "lines of text at the top");

@@ -56,7 +56,8 @@ void Loop::mind_the_keys() {
   for (const KeyAction press : presses) {
     move_eye(press);
     // A refusal shows in the overlay: nothing has moved.
-    if (const auto command = lamp_keys_.press(press, s_.lamps)) (void)verbs_(*command);
+    const auto command = lamp_keys_.press(press, s_.lamps);
+    if (command && s_.options.channel == 0) (void)verbs_(*command);
   }
   if (screens_.press(presses, keyboard.take_any(), s_.desk)) ended_ = true;
   if (const auto keys = keyboard.message(Clock::now())) s_.bus.send(newest_ ? newest_->time : SimTime{}, *keys);
@@ -378,11 +379,18 @@ std::vector<std::string> Loop::overlay(const FrameMoment& moment) const {
                         .road_line = &measuring_.road(),
                         .point = measuring_.lines(),
                         .world = s_.desk.shadows == 0 ? nullptr : &world_,
-                        .moving = lamp_keys_.lines(s_.lamps),
+                        .moving = moving_lines(),
                         .road = road_,
                         .picked = picked_line(),
                         .audit = s_.audit.line(),
                         .audit_over = s_.audit.failure().has_value()});
+}
+
+/// What the keys of this window do with lamps; of several windows the first moves them.
+std::vector<std::string> Loop::moving_lines() const {
+  std::vector<std::string> lines = lamp_keys_.lines(s_.lamps);
+  if (s_.options.channel != 0 && !lines.empty()) lines = {"the first window of the rig moves lamps"};
+  return lines;
 }
 
 void run_loop(Session& session) {
