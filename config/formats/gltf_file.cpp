@@ -15,6 +15,7 @@
 
 #include "config/base/input_files.h"
 #include "config/formats/gltf_meshopt.h"
+#include "config/formats/gltf_shapes.h"
 
 namespace phare {
 namespace {
@@ -131,12 +132,22 @@ Result<tinygltf::Model> read_gltf(const std::filesystem::path& file, GltfImages 
   std::span<const unsigned char> json(bytes);
   if (binary) {
     if (bytes.size() < 20) return bad(place, "is cut off within its header");
-    std::uint32_t length = 0;
+    std::uint32_t version = 0, whole = 0, length = 0;
+    std::memcpy(&version, bytes.data() + 4, 4);
+    std::memcpy(&whole, bytes.data() + 8, 4);
     std::memcpy(&length, bytes.data() + 12, 4);
+    if (version != 2) return bad(place, "is a GLB of version " + std::to_string(version) + "; version 2 is read");
+    if (whole > bytes.size())
+      return bad(place, "is cut off: its header says " + std::to_string(whole) + " bytes, there are " +
+                            std::to_string(bytes.size()));
     if (length > bytes.size() - 20) return bad(place, "is cut off within its JSON chunk");
     json = json.subspan(20, length);
   }
   if (json_nesting(json) > kMaxNesting) return bad(place, "JSON is nested deeper than " + std::to_string(kMaxNesting));
+
+  if (json.empty()) return bad(place, "is empty");
+  const std::string_view text(reinterpret_cast<const char*>(json.data()), json.size());
+  if (Status fit = check_gltf_shapes(text); !fit) return bad(place, fit.error().text());
 
   if (Status done = stand_in_for_what_is_left_out(bytes, binary); !done) return bad(place, done.error().text());
 

@@ -53,9 +53,11 @@ TEST(ForeignScene, QuantizedNumbersOfEveryKind) {
     values[2 * static_cast<std::size_t>(stride) / sizeof(T) + 1] = one;
     file.attribute("POSITION", file.accessor(file.view(values, stride), type, 3, "VEC3", normalized));
     file.root["extensionsUsed"] = file.root["extensionsRequired"] = Json::array({"KHR_mesh_quantization"});
+    const double scale = 0x1p-10;  // small enough to stay one triangle, and a power of two rounds nothing
+    file.root["nodes"][0]["scale"] = {scale, scale, scale};
     const std::vector<glm::dvec3> corners = corners_of(scene_of(file));
     EXPECT_EQ(corners.size(), 3u);
-    return corners.size() == 3 ? glm::dvec2(corners[1].x, corners[2].z) : glm::dvec2(0.0);
+    return corners.size() == 3 ? glm::dvec2(corners[1].x, corners[2].z) / scale : glm::dvec2(0.0);
   };
   EXPECT_EQ(read(std::int8_t{127}, 5120, true), glm::dvec2(1, 1));
   EXPECT_EQ(read(std::int8_t{-128}, 5120, true), glm::dvec2(-1, -1));  // glTF 2.0, 3.11: no less than -1
@@ -248,6 +250,15 @@ TEST(ForeignScene, RequiredExtensionsAreRefusedByNameOthersNamedOnce) {
   EXPECT_EQ(std::ranges::count_if(scene.notes, names_it), 1);
   file.root["extensionsRequired"] = Json::array({"KHR_draco_mesh_compression"});
   EXPECT_NE(reason_of(file).find("KHR_draco_mesh_compression"), std::string::npos);
+}
+
+TEST(ForeignScene, OfAnotherVersionIsRefused) {
+  for (const auto& [key, version] : {std::pair{"version", "3.0"}, {"minVersion", "2.9"}, {"version", "1.0"}}) {
+    GltfBuilder file;
+    file.square();
+    file.root["asset"][key] = version;
+    EXPECT_NE(reason_of(file).find(std::string("asset: ") + key + " is \"" + version), std::string::npos) << version;
+  }
 }
 
 TEST(ForeignScene, WhatShinesHasItsLuminance) {

@@ -321,8 +321,25 @@ TEST(ReadScene, RefusesWhatIsWrongWithAReason) {
   EXPECT_NE(reason(node, R"({"pbrMetallicRoughness":{"baseColorFactor":[2,0,0,1]}})").find("0 … 1"), std::string::npos);
   EXPECT_NE(reason(R"({"mesh":0,"translation":[1e30,0,0]})", "{}").find("1e8"), std::string::npos);
   EXPECT_NE(reason(R"({"mesh":5})", "{}").find("mesh"), std::string::npos);
+  EXPECT_NE(reason(R"({"mesh":0,"translation":[0,3]})", "{}").find("nodes[0]: translation has 2 numbers, not 3"),
+            std::string::npos);
+  EXPECT_NE(reason(R"({"mesh":0,"scale":3})", "{}").find("scale is no array"), std::string::npos);
+  EXPECT_NE(reason(R"({"mesh":0,"name":"barn","rotation":[0,0,1]})", "{}").find("\"barn\": rotation has 3"),
+            std::string::npos);
+  EXPECT_NE(reason(R"({"mesh":0,"matrix":[1,0,0,5,0,1,0,0,0,0,1,0,0,0,0,1]})", "{}").find("last row"),
+            std::string::npos);
+  EXPECT_NE(reason(node, R"({"pbrMetallicRoughness":{"baseColorFactor":[0.9,0.1,0.1]}})").find("has 3 numbers, not 4"),
+            std::string::npos);
+  EXPECT_NE(reason(node, R"({"alphaMode":"blend"})").find("alphaMode is \"blend\""), std::string::npos);
+  EXPECT_NE(
+      reason(node, R"({"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":-4}}})").find("below 0"),
+      std::string::npos);
   EXPECT_FALSE(read_scene("no_such_scene.glb"));
-  const std::string whole = bytes_of(fs::path(scene_dir()) / "country_road.glb");
+  std::string whole = bytes_of(fs::path(scene_dir()) / "country_road.glb");
+  whole[4] = 1;
+  const auto old = read_scene(write_gltf("phare_old.glb", whole));
+  EXPECT_NE((old ? "was read" : old.error().text()).find("GLB of version 1"), std::string::npos);
+  whole[4] = 2;
   for (const double part : {0.0, 1e-6, 1e-5, 0.01, 0.5, 0.999}) {  // cut off anywhere
     const auto cut = write_gltf("phare_cut.glb",
                                 whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))));

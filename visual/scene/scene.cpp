@@ -248,7 +248,11 @@ Status read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& p
     corners.at.push_back({world});
   }
   *positions = {};
-  if (!materials[*material].material.look.none())
+  const PixelLook& look = materials[*material].material.look;
+  const std::string laid_by = "TEXCOORD_" + std::to_string(materials[*material].uv_set);
+  if ((look.base_texture || look.emissive_texture || look.relief()) && !primitive.attributes.contains(laid_by))
+    notes.add("textures have no coordinates to lie by: one texel is everywhere", instance.name);
+  if (!look.none())
     if (Status done = read_looks(model, primitive, materials[*material], corners); !done)
       return bad(done.error().text());
   if (volume < 0.0) {  // a mirrored node turns its triangles inside out
