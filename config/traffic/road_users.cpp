@@ -46,7 +46,9 @@ RoadUserLights lights_of(TomlTable& table, RoadUserClass kind) {
   const auto lights = text ? static_cast<RoadUserLights>(table.choice("lights", kLights))
                            : (table.flag_or("lights", true) ? RoadUserLights::low : RoadUserLights::off);
   if (lights == RoadUserLights::high) expect_lamps(table, "lights", kind, has_motor(kind), "high beam");
-  return kind == RoadUserClass::pedestrian || kind == RoadUserClass::deer ? RoadUserLights::off : lights;
+  const bool none = kind == RoadUserClass::pedestrian || kind == RoadUserClass::deer;
+  if (table.has("lights") && lights == RoadUserLights::low) expect_lamps(table, "lights", kind, !none, "lights");
+  return none ? RoadUserLights::off : lights;
 }
 
 std::filesystem::path lamp_file_of(TomlTable& table, const char* key) {
@@ -141,11 +143,15 @@ RoadUser road_user_of(TomlTable table) {
   user.direction = static_cast<RoadUserDirection>(table.choice_or("direction", 0, kDirections));
   user.start_s_m = table.number_or("start_s_m", 0.0, -kFarthest_m, kFarthest_m);
   user.speed_mps = table.number_or("speed_kmh", 0.0, 0.0, kFastest_kmh) / 3.6;
+  if (user.direction == RoadUserDirection::standing && user.speed_mps != 0.0)
+    table.fail("speed_kmh", "who is standing has none");
   user.speeds = speeds_of(table, user.direction);
   user.offset_m = table.number_or("offset_m", 0.0, -kFarthest_m, kFarthest_m);
   user.across_mps = table.number_or("across_kmh", 0.0, -kFastest_kmh, kFastest_kmh) / 3.6;
   user.across_from_s = table.number_or("across_from_s", 0.0, -kLongest_s, kLongest_s);
   if (table.has("across_to_s")) user.across_to_s = table.number("across_to_s", user.across_from_s, kLongest_s);
+  for (const char* key : {"across_from_s", "across_to_s"})
+    if (table.has(key) && user.across_mps == 0.0) table.fail(key, "nobody goes across: there is no across_kmh");
   user.lights = lights_of(table, user.kind);
   if (table.has("brake")) {
     user.brake = table.flag_or("brake", false);
@@ -159,7 +165,7 @@ RoadUser road_user_of(TomlTable table) {
   user.third_brake_lamp =
       lamp_of(table, "third_brake_lamp", user.kind, user.kind == RoadUserClass::car, "third brake lamp");
   user.from_s = table.number_or("from_s", 0.0, -kLongest_s, kLongest_s);
-  if (table.has("to_s")) user.to_s = table.number("to_s", -kLongest_s, kLongest_s);
+  if (table.has("to_s")) user.to_s = table.number("to_s", user.from_s, kLongest_s);
   take_path(table, user);
   user.width_m = table.number_or("width_m", kSizes[kind].width_m, kSmallest_m, kLargest_m);
   user.height_m = table.number_or("height_m", kSizes[kind].height_m, kSmallest_m, kLargest_m);

@@ -33,8 +33,8 @@ def _words(done: Iihs, limits: str | None) -> str:
     return "\n\n".join(words) + "\n"
 
 
-def _adb(options: argparse.Namespace) -> str:
-    """The eight tracks, and the page where it is asked for."""
+def _adb(options: argparse.Namespace) -> tuple[str, int]:
+    """The eight tracks, and the page where it is asked for; the exit code: 1 where something is above its limit."""
     options.law, options.delay = options.law or "GlareFree", options.delay or 0.0
     for flag, value in (("--delay", options.delay), ("--red-range", options.red_range)):
         if value is not None and not (math.isfinite(value) and value >= 0.0):
@@ -51,15 +51,16 @@ def _adb(options: argparse.Namespace) -> str:
     )
     if options.page:
         done.write_page(options.page, f"{options.law}, camera {options.delay:g} s late")
-    return (
+    text = (
         f"FMVSS 108 S9.4.1.6, lux by range (limits: one source; receptors and the fixture's place: by eye)\n{done.rows.round(1).to_string(index=False)}\n\n"
         f"{done.failed} of {len(done.rows)} above the limit, for {done.above_s:.2f} s of {done.measured_s:.2f} s\n\n"
         "compares laws and lamps; approves none"
     )
+    return text, int(done.failed > 0)
 
 
 def main() -> int:
-    """phare rate. Exit codes: 0 done, 1 failed, 2 bad input."""
+    """phare rate. Exit codes: 0 done, 1 failed, or the law is above a limit, 2 bad input."""
     parser = Parser(
         prog="phare rate", description=f"iihs: the drive test of the IIHS as far as it is public; {UNOFFICIAL}. adb: a control law on the track "
         "tests of FMVSS 108 for adaptive beams.",
@@ -84,8 +85,9 @@ def main() -> int:
                 parser.error(f"{action.option_strings[0]}: is of {other}, and {options.test} is asked for")
     try:
         if options.test == "adb":
-            print(_adb(options))
-            return 0
+            text, code = _adb(options)
+            print(text)
+            return code
         done = rate_iihs(options.rig, design=options.design, limits=options.limits, assist=options.high_beam_assist)
     except PhareError as wrong:
         print(f"phare rate: {wrong}", file=sys.stderr)

@@ -33,6 +33,8 @@ def test_a_file_of_road_users_is_read(tmp_path):
     ("speed_kmh = -3", "expected 0 to 1000: direction"), ("width_m = 0", "expected 0.01 to 100"), ("to_s = inf", "expected -1e"),
     ("across_to_s = -1", "expected across_from_s or more"),
     ('lights = "full"', "lights full: expected one of off, low, high"), ("low_beam = 3", "low_beam = 3: expected the name of a file"),
+    ('direction = "standing"\nspeed_kmh = 50', "who is standing has none"), ("from_s = 10\nto_s = 5", "expected from_s or more"),
+    ("across_from_s = 3", "there is no across_kmh"), ('class = "deer"\nlights = true', "a deer has none"),
     ('direction = "up"', "direction up"), ("start_s_m = nan", "nan"),
     ("speeds = [[0, 80], [0, 70]]", "speeds: times do not rise"), ("speeds = [[0]]", "speeds: expected an array of arrays"),
     ("speeds = [[0, 1001]]", "speeds: a speed is outside"), ("speeds = [[0, 1]]\nspeed_kmh = 3", "speeds: there is speed_kmh, too"),

@@ -95,10 +95,11 @@ def test_an_aim_that_only_a_picture_finds_is_refused():
 
 @pytest.mark.parametrize("words, code, said", [
     (["--law", "AutomaticHighBeam"], 0, "0 of 25 above the limit"), (["--law", "Nobody"], 2, "law Nobody"), (["--delay", "-1"], 2, "--delay -1"),
-    (["--red-range", "nan"], 2, "--red-range nan"), (["--page", "/nowhere/x.html"], 2, "/nowhere/x.html: No such"),
+    (["--delay", "0.1", "--red-range", "100"], 1, "1 of 25 above the limit"), (["--red-range", "nan"], 2, "--red-range nan"), (["--page", "/nowhere/x.html"], 2, "/nowhere/x.html: No such"),
 ])
 def test_the_command(words, code, said):
-    command = [sys.executable, "-m", "phare.rate", "adb", "--rig", str(ROOT / "config/rigs/matrix.toml"), "--red-range", "200", *words]
+    red = [] if "--red-range" in words else ["--red-range", "200"]
+    command = [sys.executable, "-m", "phare.rate", "adb", "--rig", str(ROOT / "config/rigs/matrix.toml"), *red, *words]
     done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT / "python")
     assert done.returncode == code, done.stderr
     assert said in done.stdout + done.stderr

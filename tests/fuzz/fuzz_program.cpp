@@ -16,7 +16,9 @@ int main(int argc, char** argv) {
   app.footer("Example:\n  phare-fuzz --inputs 10000000 --keep");
   app.add_option("--inputs", inputs, "Of each decoder")->capture_default_str();
   app.add_option("--seed", seed, "Of the damage")->capture_default_str();
-  app.add_option("--decoder", only, "One only");
+  std::vector<std::string> names;
+  for (const test::FuzzedDecoder& decoder : test::fuzzed_decoders()) names.push_back(decoder.name);
+  app.add_option("--decoder", only, "One only")->check(CLI::IsMember(names));
   app.add_flag("--keep", keep, "Add inputs that were answered as none before to tests/fuzz/corpus");
   CLI11_PARSE(app, argc, argv);
   for (const test::FuzzedDecoder& decoder : test::fuzzed_decoders()) {

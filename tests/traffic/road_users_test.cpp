@@ -126,7 +126,7 @@ TEST(RoadUsers, LookAlongTheirWayAcross) {
 TEST(RoadUsers, HaveTheSizeOfTheirClassUnlessSaid) {
   const auto users =
       read_road_users(users_written("[[road_user]]\n[[road_user]]\nclass = \"lorry\"\nheight_m = 4\nspeed_kmh = "
-                                    "72\n[[road_user]]\nclass = \"pedestrian\"\nlights = true\n"));
+                                    "72\n[[road_user]]\nclass = \"pedestrian\"\n"));
   ASSERT_TRUE(users.ok()) << users.error().text();
   ASSERT_EQ(users->size(), 3u);
   EXPECT_EQ((*users)[0].width_m, 1.8);
@@ -219,6 +219,10 @@ TEST(RoadUsers, WhatIsWrongIsSaidWithItsLine) {
                {"lights = 1", "lights"},
                {"across_to_s = -1", "across_to_s"},
                {"lights = \"full\"", "none of off, low, high"},
+               {"direction = \"standing\"\nspeed_kmh = 50", "who is standing has none"},
+               {"from_s = 10\nto_s = 5", "to_s"},
+               {"across_from_s = 3", "there is no across_kmh"},
+               {"class = \"deer\"\nlights = true", "a deer has no lights"},
                {"low_beam = \"nowhere.ies\"", "nowhere.ies: no such file"},
                {"high_beam = 3", "high_beam"},
                {"low_beam = \"\"", "name of a file"},

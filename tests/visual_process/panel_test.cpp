@@ -302,16 +302,16 @@ TEST_F(PanelTest, LightIsOfBothLampsAndTheAirOfTheDesk) {
 
 // What every control asks for is a command that is accepted: no word is misspelt.
 TEST_F(PanelTest, EffectsAreForcedAndSayWhy) {
-  click("Effects, and why");
-  ASSERT_NE(panel_.place("shadows"), nullptr);
-  ASSERT_NE(panel_.place("effect hdr image"), nullptr);
-  for (const EffectRow& row : effect_table()) EXPECT_NE(panel_.place("effect " + std::string(row.name)), nullptr);
   const auto scroll = [&](const char* over, double by) {  // the sections are longer than the window
     const auto [x, y] = middle(over);
     point(PointerKind::kWheel, x, y, by);
     frames(4);
   };
   scroll("camera", -3.0);
+  click("Effects, and why");
+  ASSERT_NE(panel_.place("shadows"), nullptr);
+  ASSERT_NE(panel_.place("effect hdr image"), nullptr);
+  for (const EffectRow& row : effect_table()) EXPECT_NE(panel_.place("effect " + std::string(row.name)), nullptr);
   click("method"), click("method vertex");
   EXPECT_EQ(desk_.method, Method::kVertex);
   scroll("method", -6.0);
@@ -323,6 +323,9 @@ TEST_F(PanelTest, EffectsAreForcedAndSayWhy) {
 
 // What a control says of the desk is a command that the desk takes, and each control says something.
 TEST_F(PanelTest, EachControlNamesItsKeyOrCommand) {
+  const auto [x, y] = middle("camera");
+  point(PointerKind::kWheel, x, y, -3.0);
+  frames(4);
   click("Effects, and why");
   frames(2);
   std::size_t of_desk = 0;

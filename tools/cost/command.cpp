@@ -115,6 +115,10 @@ class CostRun {
     if (options_.against.empty()) return true;
     const auto ranks = compare_ranks(json_, before_);
     std::fprintf(options_.json ? stderr : stdout, "against %s\n%s", options_.against.c_str(), text_of(*ranks).c_str());
+    if (ranks->empty()) {
+      std::fprintf(stderr, "phare: %s: has no ladder of this run: nothing to compare\n", options_.against.c_str());
+      return false;
+    }
     for (const std::string& line : unlike(json_, before_))
       std::fprintf(options_.json ? stderr : stdout, "  not the same: %s\n", line.c_str());
     return std::ranges::all_of(*ranks, &RanksAlike::alike);

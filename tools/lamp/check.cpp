@@ -217,6 +217,11 @@ int lamp_check(const LampCheckOptions& options) {
   if (options.files.size() > 2) return bad_input({"", "one file, or the left and the right lamp's"});
   const auto inputs = read_inputs(options);
   if (!inputs) return bad_input(inputs.error());
+  const bool turned = options.aim_up_deg || options.aim_right_deg || !options.aim.empty() || !options.reaim;
+  if (turned && inputs->tables.empty())
+    return bad_input({options.files.front(),
+                      "is a list of measured points, which stay where they were measured: --aim, --aim-up, --aim-right "
+                      "and --no-reaim are of a table"});
   if (const Status pair = same_traffic(inputs->pointers()); !pair) return bad_input(pair.error());
 
   std::vector<Judged> all;

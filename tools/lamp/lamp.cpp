@@ -23,9 +23,14 @@ void add_reading(CLI::App* command, LampReadSettings& settings) {
       ->add_option("--c0", settings.c0_turn_deg, "Type C and EULUMDAT: plane C 0 lies at this angle (0 right, 90 up)")
       ->check(number_within(-360.0, 360.0))
       ->capture_default_str();
-  command->add_option("--lamp-set", settings.lamp_set, "EULUMDAT: lamp set to use, from 1")->capture_default_str();
-  command->add_option("--emitter", settings.emitter, "TM-33: emitter to use, from 1")->capture_default_str();
-  command->add_option("--distance", settings.distance_m, "CSV in lx without a distance_m: metres");
+  command->add_option("--lamp-set", settings.lamp_set, "EULUMDAT: lamp set to use, from 1")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--emitter", settings.emitter, "TM-33: emitter to use, from 1")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--distance", settings.distance_m, "CSV in lx without a distance_m: metres")
+      ->check(CLI::PositiveNumber);
   command->add_flag("--mirror", settings.mirror_h, "Turn left and right round while reading (clockwise type B)");
   command
       ->add_option_function<std::string>(

@@ -243,6 +243,15 @@ def _road_user(table: dict[str, object], place: str, folder: Path) -> RoadUser:
     size = dict(zip(("width_m", "height_m", "length_m"), SIZES_M[kind]))
     if float(str(table.get("across_to_s", math.inf))) < float(str(table.get("across_from_s", 0.0))):
         raise BadInput(f"{place}: across_to_s = {table['across_to_s']}: expected across_from_s or more")
+    if direction == "standing" and float(str(table.get("speed_kmh", 0.0))) != 0.0:
+        raise BadInput(f"{place}: speed_kmh: who is standing has none")
+    if float(str(table.get("to_s", math.inf))) < float(str(table.get("from_s", 0.0))):
+        raise BadInput(f"{place}: to_s = {table['to_s']}: expected from_s or more")
+    for key in ("across_from_s", "across_to_s"):
+        if key in table and float(str(table.get("across_kmh", 0.0))) == 0.0:
+            raise BadInput(f"{place}: {key}: nobody goes across: there is no across_kmh")
+    if kind in ("pedestrian", "deer") and given.get("lights", False):
+        raise BadInput(f"{place}: lights: a {kind} has none")
     speed_mps, across_mps = (float(str(given.pop(key, 0.0))) / 3.6 for key in ("speed_kmh", "across_kmh"))
     known = {each.name for each in fields(RoadUser)}
     words = {key: value for key, value in {**size, **given}.items() if key in known}

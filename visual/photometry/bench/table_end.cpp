@@ -96,8 +96,16 @@ std::string TableEnd::text() const {
     all = text;
   }
   if (sideways) {
-    std::snprintf(text, sizeof text, "%s H %+.0f° and %+.0f°: the road beside that is outside it",
-                  below ? "; to the sides it ends at" : "table ends at", left_deg, right_deg);
+    const bool left = left_deg > -180.0, right = right_deg < 180.0;  // one side may end in the dark
+    const char* const begin = !below          ? "table ends at"
+                              : left && right ? "; to the sides it ends at"
+                                              : "; to one side it ends at";
+    if (left && right)
+      std::snprintf(text, sizeof text, "%s H %+.0f° and %+.0f°: the road beside that is outside it", begin, left_deg,
+                    right_deg);
+    else
+      std::snprintf(text, sizeof text, "%s H %+.0f°: the road beside that is outside it", begin,
+                    left ? left_deg : right_deg);
     all += text;
   }
   return all;

@@ -310,6 +310,9 @@ Status LampCsv::to_candela() {
     unit_ = Unit::kLux;
     table_.notes.push_back(text_.place() + ": no unit; taken as lx because a distance is stated");
   }
+  if (distance_m_ > 0.0 && settings_.distance_m > 0.0 && settings_.distance_m != distance_m_)
+    return text_.error("states a distance of " + number_text(distance_m_) + " m, and " +
+                       number_text(settings_.distance_m) + " m are asked for");
   if (unit_ == Unit::kLux && distance_m_ == 0.0) distance_m_ = settings_.distance_m;
   if ((unit_ == Unit::kLux || screen) && !(distance_m_ > 0.0))
     return text_.error("values in lx need \"# distance_m: …\" or --distance");
