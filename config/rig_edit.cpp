@@ -346,7 +346,7 @@ Status save_mounts(const std::filesystem::path& rig_file, const std::filesystem:
   const std::filesystem::path to = out.empty() ? rig_file : std::filesystem::absolute(out).lexically_normal();
   std::error_code ignored;
   if (to.parent_path() != std::filesystem::absolute(rig_file).lexically_normal().parent_path())
-    return Error{to.string(), "the paths in a rig file are relative to its folder: it is saved in " +
+    return Error{to.string(), "the paths in a rig file are relative to its folder: it can be saved only in " +
                                   std::filesystem::absolute(rig_file).lexically_normal().parent_path().string()};
   if (std::filesystem::exists(to, ignored) && !std::filesystem::equivalent(to, rig_file, ignored))
     return Error{to.string(), "is there already; only the rig that is driven is written over"};
