@@ -6,6 +6,7 @@
 #include "tests/visual/shared_renderer.h"
 #include "tests/visual/yard.h"
 #include "visual/gui_content.h"
+#include "visual/passes/wrap.h"
 
 namespace phare {
 namespace {
@@ -103,6 +104,19 @@ TEST_F(GuiOnDevice, HiddenItCostsNothing) {
 }
 
 // A renderer that never shows a panel has made nothing for it; the first one makes one pipeline.
+TEST(Wrap, ALineIsCutAtBlanksAndAFigureStaysWhole) {
+  const auto letters = [](const std::string& text) { return static_cast<double>(text.size()); };
+  std::vector<std::string> rows;
+  wrap("facing it 2.995 lx   and 19.5 of it", 12.0, letters, rows);
+  EXPECT_EQ(rows, (std::vector<std::string>{"facing it", "2.995 lx", "and 19.5 of", "it"}));
+  rows.clear();
+  wrap("  22.8cd/m2-is-long on", 6.0, letters, rows);
+  EXPECT_EQ(rows, (std::vector<std::string>{"  22.8cd/m2-is-long", "on"}));
+  rows.clear();
+  wrap("", 6.0, letters, rows);
+  EXPECT_EQ(rows, (std::vector<std::string>{""})) << "an empty line keeps its row";
+}
+
 TEST(GuiPipeline, IsMadeByTheFirstPanel) {
   Result<Renderer> made = Renderer::create({.width_px = 64, .height_px = 36, .validation = true});
   ASSERT_TRUE(made.ok()) << made.error().text();

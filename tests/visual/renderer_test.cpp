@@ -16,7 +16,6 @@
 #include "tests/visual/yard.h"
 #include "visual/frame.h"
 #include "visual/image/image.h"
-#include "visual/passes/wrap.h"
 #include "visual/photometry/table/illuminance.h"
 #include "visual/picture_memory.h"
 #include "visual/scene/scene.h"
@@ -406,19 +405,6 @@ TEST_F(RendererTest, OverlayComesWhenThereAreLinesAndLeavesTheRestAlone) {
     }
   EXPECT_GT(bright, 50u) << "letters";
   EXPECT_EQ(changed_below, 0u);
-}
-
-TEST(Wrap, ALineIsCutAtBlanksAndAFigureStaysWhole) {
-  const auto letters = [](const std::string& text) { return static_cast<double>(text.size()); };
-  std::vector<std::string> rows;
-  wrap("facing it 2.995 lx   and 19.5 of it", 12.0, letters, rows);
-  EXPECT_EQ(rows, (std::vector<std::string>{"facing it", "2.995 lx", "and 19.5 of", "it"}));
-  rows.clear();
-  wrap("  22.8cd/m2-is-long on", 6.0, letters, rows);
-  EXPECT_EQ(rows, (std::vector<std::string>{"  22.8cd/m2-is-long", "on"}));
-  rows.clear();
-  wrap("", 6.0, letters, rows);
-  EXPECT_EQ(rows, (std::vector<std::string>{""})) << "an empty line keeps its row";
 }
 
 TEST_F(RendererTest, ALineWiderThanThePictureGoesOnBelow) {

@@ -18,18 +18,19 @@ class Halver {
  public:
   Halver(MeshCorners& corners, double longest_m) : corners_(corners), longest_m_(longest_m) {}
 
+  bool is_short(const std::array<std::uint32_t, 3>& t) const {
+    return !is_long(t[0], t[1]) && !is_long(t[1], t[2]) && !is_long(t[2], t[0]);
+  }
+
   /// Appends the pieces of a triangle, until there are `most` indices.
   void cut(const std::array<std::uint32_t, 3>& whole, std::size_t most, std::vector<std::uint32_t>& to) {
     std::vector<std::array<std::uint32_t, 3>> left{whole};
     while (!left.empty() && to.size() <= most) {
       std::array<std::uint32_t, 3> t = left.back();
       left.pop_back();
-      const auto is_long = [&](std::size_t edge) {
-        return glm::distance(corners_.at[t[edge]].position, corners_.at[t[(edge + 1) % 3]].position) > longest_m_;
-      };
-      const int count = is_long(0) + is_long(1) + is_long(2);
+      const int count = is_long(t[0], t[1]) + is_long(t[1], t[2]) + is_long(t[2], t[0]);
       // Turned so that the first edges are the long ones.
-      while ((count == 1 && !is_long(0)) || (count == 2 && is_long(2))) t = {t[1], t[2], t[0]};
+      while ((count == 1 && !is_long(t[0], t[1])) || (count == 2 && is_long(t[2], t[0]))) t = {t[1], t[2], t[0]};
       const auto [a, b, c] = t;
       if (count == 0) {
         to.insert(to.end(), {a, b, c});
@@ -52,6 +53,10 @@ class Halver {
   }
 
  private:
+  bool is_long(std::uint32_t a, std::uint32_t b) const {
+    return glm::distance(corners_.at[a].position, corners_.at[b].position) > longest_m_;
+  }
+
   std::uint32_t middle(std::uint32_t a, std::uint32_t b) {
     const auto [found, first] = middles_.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(corners_.at.size()));
     if (!first) return found->second;
@@ -79,8 +84,12 @@ double halve_long_edges(MeshCorners& corners, std::vector<std::uint32_t>& triang
   for (double longest_m = kLongestEdge_m;; longest_m *= 2.0) {
     Halver halver(corners, longest_m);
     std::vector<std::uint32_t> halved;
-    for (std::size_t i = 0; i + 2 < triangles.size() && halved.size() <= most; i += 3)
-      halver.cut({triangles[i], triangles[i + 1], triangles[i + 2]}, most, halved);
+    const auto triangle = [&](std::size_t i) { return std::array{triangles[i], triangles[i + 1], triangles[i + 2]}; };
+    std::size_t i = 0;
+    while (i + 2 < triangles.size() && halver.is_short(triangle(i))) i += 3;
+    if (i + 2 >= triangles.size()) return longest_m;  // none, as in most files: nothing is copied
+    halved.assign(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(i));
+    for (; i + 2 < triangles.size() && halved.size() <= most; i += 3) halver.cut(triangle(i), most, halved);
     if (halved.size() <= most) {
       triangles = std::move(halved);
       return longest_m;
