@@ -1,8 +1,11 @@
 // phare drive: starts the processes of a rig, keeps them running, ends them, and tells what came out.
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -261,6 +264,7 @@ Status DriveRun::make_room() {
     made_ = first_missing(options_.out);
     fs::create_directories(options_.out, failed);
     if (failed) return Error{options_.out, failed.message()};
+    if (::access(options_.out.c_str(), W_OK | X_OK) != 0) return Error{options_.out, std::strerror(errno)};
     auto claim = claim_folder(options_.out);
     if (!claim) return claim.error();
     claim_ = std::move(*claim);

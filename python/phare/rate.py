@@ -33,17 +33,22 @@ def _words(done: Iihs, limits: str | None) -> str:
     return "\n\n".join(words) + "\n"
 
 
+def _stays(file: str, page: str | None) -> None:
+    """A page is not written over what it is made from."""
+    if page and os.path.exists(page) and os.path.exists(file) and os.path.samefile(page, file):
+        raise BadInput(f"{page}: is the input {file}; it would be overwritten")
+
+
 def _adb(options: argparse.Namespace) -> tuple[str, int]:
     """The eight tracks, and the page where it is asked for; the exit code: 1 where something is above its limit."""
     options.law, options.delay = options.law or "GlareFree", options.delay or 0.0
     for flag, value in (("--delay", options.delay), ("--red-range", options.red_range)):
         if value is not None and not (math.isfinite(value) and value >= 0.0):
             raise BadInput(f"{flag} {value:g}: 0 or more")
+    _stays(options.rig, options.page)
     read = Rig.read(options.rig)
-    inputs = [options.rig, *read.files(), *([options.law] if options.law.endswith(".fmu") else [])]
-    for file in inputs if options.page and os.path.exists(options.page) else []:
-        if os.path.exists(file) and os.path.samefile(options.page, file):
-            raise BadInput(f"{options.page}: is the input {file}; it would be overwritten")
+    for file in (*read.files(), options.law):
+        _stays(file, options.page)
     seen_m = Sensors().range_m | ({"red": options.red_range} if options.red_range is not None else {})
     law_named(options.law)  # told before anything is computed
     done = track_tests(

@@ -317,6 +317,11 @@ TEST_F(Explain, TheLinesShowWhatTheDeskSays) {
   moment.audit_over = true;
   EXPECT_EQ(overlay_lines(desk_, lamps_, moment).size(), with_effects.size() + 2);
   moment.audit_over = false, moment.audit.clear(), moment.picked.clear();
+  // That a picture of another kind is on its way, too: it may take seconds after the key.
+  moment.coming = true;
+  const auto coming = overlay_lines(desk_, lamps_, moment);
+  EXPECT_EQ(std::ranges::count(coming, "the picture that was asked for is being made ..."), 1);
+  moment.coming = false;
   // A probe of the car goes with it; one of the world stays. Facing the lamps, 900 cd each from 22 m: 900/22² lx.
   ASSERT_TRUE(apply(desk_, {"probes", "car 25 0.6 0.7 -1 0 0; world 125 0.6 0.7 -1 0 0"}));
   desk_.effects = false;

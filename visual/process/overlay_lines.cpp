@@ -92,6 +92,7 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
                     ": the picture is not exact, lux in figures is");
   for (std::string& end : lamps.lit_table_ends()) lines.push_back(std::move(end));
   if (desk.effects && !moment.audit.empty()) lines.push_back(moment.audit);
+  if (moment.coming) lines.push_back("the picture that was asked for is being made ...");
   if (moment.audit_over) lines.push_back("SELF-AUDIT: a pixel is off by more than its level states");
   if (moment.road != RoadPlace::kThere) lines.push_back(road_end_line(moment.road));
   if (moment.pose_held) lines.emplace_back("POSE HELD: no VehicleState");

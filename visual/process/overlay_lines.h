@@ -50,6 +50,7 @@ struct OverlayMoment {
   std::string picked{};     ///< for a budget or a tolerance, as it holds now
   std::string audit{};      ///< what the self-audit has found (audit.h)
   bool audit_over = false;  ///< a pixel was off by more than its level states
+  bool coming = false;      ///< a picture of another kind was asked for, and is made beside the frames
 };
 
 /// What the driver is told over the picture besides the instruments: time, lux at probes and under the mouse, and

@@ -13,6 +13,7 @@
 #include "visual/process/loop.h"
 #include "visual/process/overlay_lines.h"
 #include "visual/process/pick.h"
+#include "visual/process/picture_kind.h"
 
 namespace phare {
 
@@ -383,7 +384,8 @@ std::vector<std::string> Loop::overlay(const FrameMoment& moment) const {
                         .road = road_,
                         .picked = picked_line(),
                         .audit = s_.audit.line(),
-                        .audit_over = s_.audit.failure().has_value()});
+                        .audit_over = s_.audit.failure().has_value(),
+                        .coming = !same_kind(s_.desk, shown_)});
 }
 
 /// What the keys of this window do with lamps; of several windows the first moves them.

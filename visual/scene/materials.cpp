@@ -86,9 +86,12 @@ std::vector<std::string> SceneNotes::lines() const {
 }
 
 void note_what_is_not_read(const tinygltf::Model& model, SceneNotes& notes) {
-  static const std::array<std::string_view, 7> kRead{
-      "KHR_materials_unlit",     "KHR_materials_emissive_strength", "KHR_texture_transform", "KHR_mesh_quantization",
-      "EXT_meshopt_compression", "KHR_lights_punctual",             "EXT_lights_ies"};
+  // Of the last two each texture tells that is there by them only.
+  static const std::array<std::string_view, 9> kRead{"KHR_materials_unlit",     "KHR_materials_emissive_strength",
+                                                     "KHR_texture_transform",   "KHR_mesh_quantization",
+                                                     "EXT_meshopt_compression", "KHR_lights_punctual",
+                                                     "EXT_lights_ies",          "KHR_texture_basisu",
+                                                     "EXT_texture_webp"};
   for (const std::string& extension : model.extensionsUsed)
     if (std::ranges::find(kRead, extension) == kRead.end() && !extension.starts_with("KHR_materials_"))
       notes.add("extensions that are not read", extension);
