@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "config/desk_cameras.h"
+#include "config/finite_numbers.h"
 #include "config/rig.h"
 
 namespace phare {
@@ -127,7 +128,7 @@ void PictureOptions::add_to(CLI::App& app) {
       ->check([](const std::string& words) { return why_not(setting_of(words)); }, "", "setting");
   declare(app.add_option("--still-at", still_at_s,
                          "Simulated time of the stills, s [a fifth of the drive, on low beam, moving]"))
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_within(0.0, 1e9));
   declare(app.add_option("--traffic", traffic, "Other road users, a TOML file (docs/traffic.md) [the rig's]"))
       ->check(CLI::ExistingFile);
   declare(app.add_flag("--video", video,

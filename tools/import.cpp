@@ -7,6 +7,7 @@
 
 #include "config/base/input_files.h"
 #include "config/cockpit.h"
+#include "config/finite_numbers.h"
 #include "config/rig.h"
 #include "config/road/lane.h"
 #include "net/drive_file.h"
@@ -139,7 +140,7 @@ void add_import(CLI::App& app, Command& chosen) {
       "--onto", arguments->onto,
       "Lane (CSV) to put the drive onto by path length, or none to keep the recorded pose [the scene's lane]");
   arguments->start = command->add_option("--start", import.lane_start_m, "Where on the lane the drive begins, m")
-                         ->check(CLI::NonNegativeNumber)
+                         ->check(number_within(0.0, 1e9))
                          ->capture_default_str();
   command
       ->add_option("--light", arguments->light,

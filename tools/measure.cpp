@@ -11,6 +11,7 @@
 
 #include "config/base/input_files.h"
 #include "config/base/remedies.h"
+#include "config/finite_numbers.h"
 #include "config/rig.h"
 #include "tools/commands.h"
 #include "tools/reference_table.h"
@@ -414,7 +415,7 @@ void add_measure(CLI::App& app, Command& chosen) {
   command
       ->add_option("--max-error", options->max_error,
                    "With --table: relative, where more than 0.01 lx is expected [fragment: 1e-5; reference: 1e-9]")
-      ->check(CLI::PositiveNumber)
+      ->check(number_within(1e-30, 1e30))
       ->needs(table);
   auto* method =
       command->add_option("--method", options->method,

@@ -200,7 +200,7 @@ TEST_F(BadInput, OfADrive) {
       {"relay: no share", "phare bus-relay --listen 127.0.0.9 --to 127.0.0.1 --loss nan", "--loss: nan is not"},
       {"hard cases: a seed below 0", "phare hard-cases garbage --seed -1", "--seed: -1 is less than 0"},
       {"cost: a seed below 0", "phare cost --seed=-1", "--seed: -1 is less than 0"},
-      {"a lamp set below 0", "phare lamp info good.ies --lamp-set -1", "--lamp-set: -1 is less than 0"},
+      {"a lamp set below 0", "phare lamp info good.ies --lamp-set -1", "--lamp-set: -1 is not within 1 to 1e+06"},
       {"hard cases: no factor", "phare hard-cases garbage --tighten nan", "--tighten: nan is not"},
       {"cockpit: no time", "phare-cockpit --wait-for-picture nan", "--wait-for-picture: nan is not"},
       {"dynamics: the bus of no rig", "phare-dynamics --batch x.csv --open-bus",

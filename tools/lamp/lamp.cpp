@@ -24,13 +24,13 @@ void add_reading(CLI::App* command, LampReadSettings& settings) {
       ->check(number_within(-360.0, 360.0))
       ->capture_default_str();
   command->add_option("--lamp-set", settings.lamp_set, "EULUMDAT: lamp set to use, from 1")
-      ->check(CLI::PositiveNumber)
+      ->check(number_within(1.0, 1e6))
       ->capture_default_str();
   command->add_option("--emitter", settings.emitter, "TM-33: emitter to use, from 1")
-      ->check(CLI::PositiveNumber)
+      ->check(number_within(1.0, 1e6))
       ->capture_default_str();
   command->add_option("--distance", settings.distance_m, "CSV in lx without a distance_m: metres")
-      ->check(CLI::PositiveNumber);
+      ->check(number_within(1e-3, 1e6));
   command->add_flag("--mirror", settings.mirror_h, "Turn left and right round while reading (clockwise type B)");
   command
       ->add_option_function<std::string>(
