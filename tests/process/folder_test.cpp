@@ -113,6 +113,10 @@ TEST_F(Folder, ALevelOfTheCarCountsForTheDemoToo) {
   EXPECT_EQ(said.code, 0) << said.err;
   EXPECT_NE(said.err.find("open loop"), std::string::npos) << said.err;
   EXPECT_NE(contents_of(folder_ / "out" / "dynamics.json").find("\"level\": \"kinematic\""), std::string::npos);
+  // On another road than the recorded one the recorded controls would leave it: the demo driver drives.
+  const Said ice = drive_here("--frames 2 --level full --friction 0.3 --out ice");
+  EXPECT_EQ(ice.code, 0) << ice.err;
+  EXPECT_EQ(report_of(folder_ / "ice")["processes"]["cockpit"]["source"]["name"], "driver");
 }
 
 // Pixels computed again in float64 fail a drive whose light is not what its level states, and no other.
@@ -203,6 +207,26 @@ TEST_F(Folder, RowsThatCouldNotBeKeptEndWithOne) {
   const auto kept = report_of(folder_ / "out")["processes"]["visual-0"]["kept_frames"];
   EXPECT_EQ(kept["not_kept"], 1);
   EXPECT_NE(kept["first_not_kept"].get<std::string>().find("drive.csv"), std::string::npos) << kept;
+}
+
+// By a terminal that is closed, before the low beam at speed that stills wait for, and with pictures that went nowhere.
+TEST_F(Folder, ADriveThatIsHungUpOnKeepsWhatThereIsAndSaysWhatIsMissing) {
+  const fs::path out = folder_ / "out";
+  DriveRun run(out, folder_.path(), {"--still-at", "60"});
+  ASSERT_TRUE(run.wait_for_frame(0));
+  fs::rename(out / "frames", out / "gone");
+  const auto not_kept = [&] {
+    const auto stats = nlohmann::json::parse(contents_of(out / "visual-0.json"), nullptr, false);
+    return stats.is_object() && stats["kept_frames"].value("not_kept", 0) > 0;
+  };
+  for (int i = 0; i < 1200 && !not_kept(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(run.end(SIGHUP), 130);
+  const auto report = report_of(out);
+  ASSERT_TRUE(report.is_object());
+  EXPECT_EQ(report["cut_short"], true);
+  EXPECT_NE(report["why"].get<std::string>().find("pictures could not be kept"), std::string::npos) << report["why"];
+  for (const char* still : {"drivers_view.png", "wall_25m.png", "birds_eye.png"})
+    EXPECT_TRUE(fs::exists(out / still)) << still;
 }
 
 TEST_F(Folder, ADriveThatIsCutShortSaysSoAndEndsWith130) {

@@ -38,6 +38,18 @@ TEST(Supervisor, EndsWhenThePicturesEnd) {
   EXPECT_EQ(supervisor.ended_badly(), "");
 }
 
+TEST(Supervisor, KnowsThatOneOfSeveralWindowsWasClosed) {
+  Supervisor supervisor({{"visual-0", "/bin/true", {}, true}, {"visual-1", "/bin/sleep", {"60"}, true}});
+  ASSERT_TRUE(supervisor.start());
+  EXPECT_FALSE(supervisor.one_has_left());
+  for (int i = 0; i < 5000 && !supervisor.one_has_left(); ++i) {
+    ASSERT_TRUE(supervisor.step()) << "the other is there";
+    std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_TRUE(supervisor.one_has_left());
+  supervisor.end_all(5s);
+}
+
 TEST(Supervisor, TellsWhoEndsBadlyWhenTheDriveIsOver) {
   const auto dies = [](const std::string& how) {
     return std::vector<std::string>{"-c", "trap '" + how + "' TERM; while :; do sleep 0.05; done"};
