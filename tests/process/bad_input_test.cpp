@@ -97,6 +97,9 @@ class BadInput : public testing::Test {
     write("short.csv", "x_m,y_m,z_m,nx,ny\n1,2,3,0,0\n");
     write("good.csv", "x_m,y_m,z_m,nx,ny,nz\n1,2,3,0,0,1\n");
     write("pose.csv", "t_s,east_m,north_m,up_m,heading_deg_cw_from_north,path_pitch_deg\n1,0,0,0,0,0\n2,0,9,0,0,0\n");
+    write("lx.csv", "# unit: lx\n# distance_m: 25\nV\\H,-1,0,1\n-1,1,2,3\n0,1,4,3\n1,1,2,3\n");
+    write("measured.csv", "point,lx\nB50L,0.2\n75R,12\n");
+    write("zones.csv", "x_m,friction\n0,0.3\n100,1\n");
     write("file", "");
     write("binary.blf", "LOGG");
   }
@@ -203,6 +206,14 @@ TEST_F(BadInput, OfADrive) {
       {"a lamp set below 0", "phare lamp info good.ies --lamp-set -1", "--lamp-set: -1 is not within 1 to 1e+06"},
       {"hard cases: no factor", "phare hard-cases garbage --tighten nan", "--tighten: nan is not"},
       {"cockpit: no time", "phare-cockpit --wait-for-picture nan", "--wait-for-picture: nan is not"},
+      {"lamp: at another distance than it says", "phare lamp info lx.csv --distance 50",
+       "lx.csv:2: states a distance of 25 m, and 50 m are asked for"},
+      {"lamp: measured points turned", "phare lamp check measured.csv --rule r112-passing-b --distance 25 --aim-up 1",
+       "measured.csv: is a list of measured points"},
+      {"dynamics: friction for a car without tyres",
+       "phare-dynamics --seconds 1 --hold-speed-kmh 50 --level kinematic --road zones.csv --out x.csv --vehicle " +
+           kConfig + "vehicles/hatchback.toml",
+       "zones.csv: has friction alone"},
       {"dynamics: the bus of no rig", "phare-dynamics --batch x.csv --open-bus",
        "--open-bus: means nothing with --batch"},
       {"dynamics: how much to tell of no rig", "phare-dynamics --batch x.csv --log-level debug", "--log-level: means"},

@@ -113,6 +113,9 @@ Status LampCsv::take_remark(std::string_view line) {
     if (!distance || !(*distance > 0.0) || *distance > 1e6)
       return text_.error("distance_m is no number of metres above 0: " + in_quotes(value));
     distance_m_ = *distance;
+    if (settings_.distance_m > 0.0 && settings_.distance_m != distance_m_)
+      return text_.error("states a distance of " + number_text(distance_m_) + " m, and " +
+                         number_text(settings_.distance_m) + " m are asked for");
   } else if (key == "ANGLES") {
     const std::string kind = capitals.starts_with("TYPE ") ? capitals.substr(5) : capitals;
     if (kind != "A" && kind != "B" && kind != "C")
@@ -310,9 +313,6 @@ Status LampCsv::to_candela() {
     unit_ = Unit::kLux;
     table_.notes.push_back(text_.place() + ": no unit; taken as lx because a distance is stated");
   }
-  if (distance_m_ > 0.0 && settings_.distance_m > 0.0 && settings_.distance_m != distance_m_)
-    return text_.error("states a distance of " + number_text(distance_m_) + " m, and " +
-                       number_text(settings_.distance_m) + " m are asked for");
   if (unit_ == Unit::kLux && distance_m_ == 0.0) distance_m_ = settings_.distance_m;
   if ((unit_ == Unit::kLux || screen) && !(distance_m_ > 0.0))
     return text_.error("values in lx need \"# distance_m: …\" or --distance");
