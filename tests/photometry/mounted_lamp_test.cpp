@@ -167,6 +167,12 @@ TEST(TableEnd, SidewaysToo) {
   EXPECT_NEAR(narrow->left_deg, -20.0, 0.011);
   EXPECT_NEAR(narrow->right_deg, 20.0, 0.011);
   EXPECT_EQ(narrow->text(), "table ends at H -20° and +20°: the road beside that is outside it");
+  // To the right it ends in the dark: that end takes no light from anybody, and is not told.
+  IntensityTable left = even_table(20.0, -70.0, 1000.0);
+  for (const std::size_t dark : {2u, 5u, 8u}) left.candela[dark] = 0.0;
+  const auto one = end_of(left, 0.0);
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->text(), "table ends at H -20°: the road beside that is outside it");
 }
 
 /// The lower edge of a flat screen, and of a type B table, rises to the sides: its end there is none to the side.
