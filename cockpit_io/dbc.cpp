@@ -173,13 +173,31 @@ bool encode(const DbcMessage& message, const DbcSignal& s, double value, CanFram
   return encode_raw(message, s, raw, frame);
 }
 
+namespace {
+
+/// A signal in a frame of its own, which no multiplexor takes away.
+struct Alone {
+  explicit Alone(const DbcSignal& of) : signal(of) {
+    signal.multiplexor.clear();
+    frame.length = CanFrame::kMaxLength;
+  }
+  DbcMessage message{};
+  DbcSignal signal;
+  CanFrame frame{};
+};
+
+}  // namespace
+
+std::optional<double> physical_value(const DbcSignal& signal, std::uint64_t raw) {
+  Alone alone(signal);
+  encode_raw(alone.message, alone.signal, raw, alone.frame);
+  return decode(alone.message, alone.signal, alone.frame);
+}
+
 std::optional<double> nearest_value(const DbcSignal& signal, double value) {
-  CanFrame frame;  // the signal's bits alone
-  frame.length = CanFrame::kMaxLength;
-  const DbcMessage alone;
-  DbcSignal free = signal;
-  free.multiplexor.clear();
-  return encode(alone, free, value, frame) ? decode(alone, free, frame) : std::nullopt;
+  Alone alone(signal);
+  if (!encode(alone.message, alone.signal, value, alone.frame)) return std::nullopt;
+  return decode(alone.message, alone.signal, alone.frame);
 }
 
 std::string physical_text(double value) {

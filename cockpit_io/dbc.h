@@ -110,6 +110,9 @@ bool encode_raw(const DbcMessage& message, const DbcSignal& signal, std::uint64_
 /// value is not finite, does not fit the bits, or the frame is too short. Sets multiplexors as encode_raw() does.
 bool encode(const DbcMessage& message, const DbcSignal& signal, double value, CanFrame& frame);
 
+/// The physical value of raw bits, wherever they stand; nullopt: a float that is not finite.
+std::optional<double> physical_value(const DbcSignal& signal, std::uint64_t raw);
+
 /// The value of the signal that is nearest to this one; nullopt: it is not finite or does not fit the bits.
 std::optional<double> nearest_value(const DbcSignal& signal, double value);
 

@@ -19,19 +19,9 @@ std::string id_text(std::uint32_t id, bool extended) {
   return text;
 }
 
-double physical(const DbcSignal& s, std::uint64_t raw) {
-  CanFrame frame;  // the signal's bits alone, decoded as any other frame
-  frame.length = CanFrame::kMaxLength;
-  DbcMessage alone;
-  DbcSignal free = s;
-  free.multiplexor.clear();
-  encode_raw(alone, free, raw, frame);
-  return decode(alone, free, frame).value_or(0.0);
-}
-
 std::string value_text(const DbcSignal* s, std::uint64_t raw) {
   if (s == nullptr) return std::to_string(raw);
-  std::string text = physical_text(physical(*s, raw)) + (s->unit.empty() ? "" : " " + s->unit);
+  std::string text = physical_text(physical_value(*s, raw).value_or(0.0)) + (s->unit.empty() ? "" : " " + s->unit);
   const auto key = s->type == DbcSignal::Type::kSigned && s->length_bits < 64 && (raw >> (s->length_bits - 1)) != 0
                        ? static_cast<std::int64_t>(raw) - (std::int64_t{1} << s->length_bits)
                        : static_cast<std::int64_t>(raw);

@@ -168,7 +168,8 @@ Result<std::vector<Illuminance>> measure_fragment(const std::vector<LampConfig>&
 /// Of each object, points that lie in its shadow of some lamp.
 std::map<std::string, std::size_t> points_in_shadow(const std::optional<std::vector<HiddenBy>>& hidden) {
   std::map<std::string, std::size_t> shadows;
-  for (const HiddenBy& names : hidden.value_or(std::vector<HiddenBy>{}))
+  if (!hidden) return shadows;
+  for (const HiddenBy& names : *hidden)
     for (const std::string& name : std::set<std::string>(names.begin(), names.end()))
       if (!name.empty()) ++shadows[name];
   return shadows;

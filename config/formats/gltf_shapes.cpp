@@ -164,7 +164,11 @@ Status scene(const Json& object, const std::string& place) {
 }  // namespace
 
 Status check_gltf_shapes(std::string_view json) {
-  const Json root = Json::parse(json, nullptr, false);
+  // Buffers and pictures may hold the whole scene in their text; nothing of them is asked.
+  const auto wanted = [](int depth, Json::parse_event_t event, const Json& key) {
+    return depth != 1 || event != Json::parse_event_t::key || (key != "buffers" && key != "images");
+  };
+  const Json root = Json::parse(json, wanted, false);
   if (root.is_discarded() || !root.is_object()) return Done{};
   if (const auto found = root.find("asset"); found != root.end())
     if (const Status fit = asset(*found); !fit) return fit;

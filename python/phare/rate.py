@@ -77,16 +77,23 @@ def main() -> int:
     parser.add_argument("--rig", required=True, help="rig file")
     parser.add_argument("--design", help="design of it [its first]")
     iihs, adb = parser.add_argument_group("iihs"), parser.add_argument_group("adb")
-    iihs.add_argument("--limits", help="TOML with targets and a glare curve of your own (docs/python.md)")
-    iihs.add_argument("--high-beam-assist", action="store_true", help="the car has it: credited by [assist] of the limits")
-    adb.add_argument("--law", help="class of phare.laws, module:Class, or an FMU [GlareFree]")
-    adb.add_argument("--delay", type=float, metavar="S", help="how late the camera is, s [0]")
-    adb.add_argument("--red-range", type=float, metavar="M", help="from where the camera sees rear lamps, m [100]")
-    adb.add_argument("--page", help="HTML file with lux over range on each track")
+    of_one_test = {
+        "iihs": [
+            iihs.add_argument("--limits", help="TOML with targets and a glare curve of your own (docs/python.md)"),
+            iihs.add_argument("--high-beam-assist", action="store_true", help="the car has it: credited by [assist] of the limits"),
+        ],
+        "adb": [
+            adb.add_argument("--law", help="class of phare.laws, module:Class, or an FMU [GlareFree]"),
+            adb.add_argument("--delay", type=float, metavar="S", help="how late the camera is, s [0]"),
+            adb.add_argument("--red-range", type=float, metavar="M", help="from where the camera sees rear lamps, m [100]"),
+            adb.add_argument("--page", help="HTML file with lux over range on each track"),
+        ],
+    }
     options = parser.parse_args()
-    for other, group in (("iihs", iihs), ("adb", adb)):
-        for action in group._group_actions:
-            if other != options.test and not any(getattr(options, action.dest) is unset for unset in (None, False)):
+    for other, actions in of_one_test.items():
+        for action in actions:
+            given = getattr(options, action.dest)
+            if other != options.test and given is not None and given is not False:
                 parser.error(f"{action.option_strings[0]}: is of {other}, and {options.test} is asked for")
     try:
         if options.test == "adb":

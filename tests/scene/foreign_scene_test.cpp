@@ -8,6 +8,7 @@
 
 #include "tests/paths.h"
 #include "tests/scene/gltf_builder.h"
+#include "visual/scene/long_edges.h"
 #include "visual/scene/scene.h"
 
 namespace phare {
@@ -250,6 +251,18 @@ TEST(ForeignScene, RequiredExtensionsAreRefusedByNameOthersNamedOnce) {
   EXPECT_EQ(std::ranges::count_if(scene.notes, names_it), 1);
   file.root["extensionsRequired"] = Json::array({"KHR_draco_mesh_compression"});
   EXPECT_NE(reason_of(file).find("KHR_draco_mesh_compression"), std::string::npos);
+}
+
+TEST(ForeignScene, WhatIsWideIsReadInSmallTriangles) {
+  GltfBuilder file;
+  file.square();
+  const double side = 1024.0;
+  file.root["nodes"][0]["scale"] = {side, side, side};
+  const std::vector<glm::dvec3> corners = corners_of(scene_of(file));
+  ASSERT_GT(corners.size(), 6u);
+  for (std::size_t i = 0; i < corners.size(); i += 3)
+    for (std::size_t k = 0; k < 3; ++k)
+      ASSERT_LE(glm::distance(corners[i + k], corners[i + (k + 1) % 3]), kLongestEdge_m);
 }
 
 TEST(ForeignScene, OfAnotherVersionIsRefused) {

@@ -64,6 +64,18 @@ TEST(DriveLog, ARowThatTheDiskDoesNotTakeLeavesNoHalfOfIt) {
   const auto lines = lines_of(folder / "drive.csv");
   ASSERT_EQ(lines.size(), 3u);
   EXPECT_EQ(lines[2] + "\n", drive_row(row_of(3), {}));
+
+  // Of the process that takes the place of one that was killed: what the disk has stays, whatever it takes now.
+  const rlimit fuller{20, before.rlim_max};
+  std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &fuller), 0);
+  DriveLog next(folder, true);
+  EXPECT_FALSE(next.write(row_of(4)));
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handled);
+  EXPECT_EQ(lines_of(folder / "drive.csv"), lines);
+  EXPECT_TRUE(next.write(row_of(5)));
+  EXPECT_EQ(lines_of(folder / "drive.csv").size(), lines.size() + 1);
   fs::remove_all(folder);
 }
 

@@ -13,16 +13,19 @@ namespace phare {
 inline void wrap(const std::string& line, double room, const std::function<double(const std::string&)>& width_of,
                  std::vector<std::string>& rows) {
   std::string row;
+  double width = 0.0;  // letters stand side by side: widths add up
   for (std::size_t at = 0; at < line.size();) {
     const std::size_t word = line.find_first_not_of(' ', at);
     if (word == std::string::npos) break;
     const std::size_t end = std::min(line.find(' ', word), line.size());
-    const std::string longer = row + line.substr(at, end - at);
-    if (!row.empty() && width_of(longer) > room) {
+    const std::string more = line.substr(at, end - at);
+    width += width_of(more);
+    if (!row.empty() && width > room) {
       rows.push_back(row);
       row = line.substr(word, end - word);
+      width = width_of(row);
     } else {
-      row = longer;
+      row += more;
     }
     at = end;
   }

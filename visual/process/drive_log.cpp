@@ -7,6 +7,8 @@
 #include <fstream>
 #include <utility>
 
+#include "config/base/whole_file.h"
+
 namespace phare {
 namespace {
 
@@ -92,13 +94,14 @@ void DriveLog::begin(SimTime now) {
     }
     kept.resize(until_now);
   }
-  header_missing_ = !rows_.open(file_, false) || !rows_.append(kept);
+  // Where the disk is full the rows of before stay as they are, and the next row tries again.
+  begun_ = write_whole_file(file_, kept).ok() && rows_.open(file_, true);
 }
 
 bool DriveLog::write(const DriveRow& row) {
-  if (!rows_.is_open() || header_missing_) begin(row.time);
+  if (!begun_) begin(row.time);
   if (!row.reach.empty()) newest_reach_ = row.time.ns / kReachEvery_ns;
-  return (!header_missing_ && rows_.append(drive_row(row, columns_))) || std::exchange(failed_, true);
+  return (begun_ && rows_.append(drive_row(row, columns_))) || std::exchange(failed_, true);
 }
 
 }  // namespace phare

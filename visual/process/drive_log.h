@@ -61,7 +61,7 @@ class DriveLog {
   std::filesystem::path file_;
   AppendedFile rows_;
   std::int64_t newest_reach_ = -1;
-  bool going_on_ = false, failed_ = false, header_missing_ = false;
+  bool going_on_ = false, failed_ = false, begun_ = false;
   DriveColumns columns_;
 };
 

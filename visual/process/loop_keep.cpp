@@ -94,8 +94,8 @@ void Loop::finish() {
   s_.bus.on_datagram = nullptr;
   finish_audit();
   keep_capture();
-  // A drive that was ended before its telling moment: as it was last.
-  if (!still_ && newest_ && s_.album.wanted() && !s_.album.has_stills()) still_ = still_of(*newest_);
+  // A drive that was ended before its telling moment, or whose stills the process before has made: as it was last.
+  if (!still_ && newest_ && s_.album.wanted()) still_ = still_of(*newest_);
   if (still_ && !s_.album.has_stills()) keep_stills();
   keep_other_designs();
   s_.album.finish();
@@ -153,7 +153,6 @@ void Loop::log_frame(const FrameMoment& moment) {
 /// that the counts are those of the drive.
 void Loop::keep_other_designs() {
   if (!s_.album.wanted() || s_.stop.requested()) return;
-  if (!still_ && newest_) still_ = still_of(*newest_);  // those there are were made by the process before
   if (!still_) return;
   for (const auto& [design, seconds] : s_.designs_lit.seconds) {
     if (s_.stills_design == design) continue;

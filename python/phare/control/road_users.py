@@ -181,7 +181,13 @@ def read_road_users(file: str | os.PathLike[str]) -> list[RoadUser]:
     if set(document) != {"road_user"} or not isinstance(listed, list) or not all(isinstance(table, dict) for table in listed):
         raise BadInput(f"{file}: expected [[road_user]] and nothing else")
     folder = Path(file).resolve().parent
-    return [_road_user(table, f"{place_in(file, 'road_user', number)}: road_user {number}", folder) for number, table in enumerate(listed, 1)]
+    users = []
+    for number, table in enumerate(listed, 1):
+        try:
+            users.append(_road_user(table, f"road_user {number}", folder))
+        except BadInput as wrong:
+            raise BadInput(f"{place_in(file, 'road_user', number)}: {wrong}") from wrong
+    return users
 
 
 def _speeds(table: dict[str, object], place: str) -> tuple[tuple[float, float], ...]:
