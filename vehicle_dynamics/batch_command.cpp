@@ -335,6 +335,9 @@ Status BatchCommand::driver_fits() const {
   if (!o.manoeuvre.empty())
     for (const char* option : {"--hold-speed-kmh", "--follow", "--start-x-m"})
       if (given(option)) return Error{option, "a manoeuvre has a driver and a place of its own"};
+  if (!o.manoeuvre.empty())
+    for (const auto& [option, speed] : {std::pair{"--speed-kmh", o.speed_kmh}, {"--speed-mps", o.speed_mps}})
+      if (given(option) && speed <= 0.0) return Error{option, "a manoeuvre is driven forwards, at more than 0"};
   if (!o.manoeuvre.empty() && o.output_hz < batch::kManoeuvreRows_hz)
     return Error{"--output-hz", "a manoeuvre is measured by 100 rows a second or more"};
   if (!o.manoeuvre.empty() && o.levelling == "manual") return Error{"--levelling", "manual needs inputs"};

@@ -1,6 +1,7 @@
 #include "vehicle_dynamics/batch_output.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -66,9 +67,11 @@ Status Output::finish(const Summary& summary, double step_s) {
 std::vector<std::string> Output::figure_lines() const {
   std::vector<std::string> lines;
   if (!standard_) return lines;
-  char line[120];
+  char line[240], value[32];
   for (const Figure& figure : figures(*standard_, rows_)) {
-    std::snprintf(line, sizeof line, "%-48s %9.3f %s", figure.what.c_str(), figure.value, figure.unit);
+    std::snprintf(value, sizeof value, "%.3f", figure.value);
+    std::snprintf(line, sizeof line, "%-48s %9s %s", figure.what.c_str(), std::isnan(figure.value) ? "none:" : value,
+                  figure.unit.c_str());
     lines.push_back(line);
   }
   return lines;

@@ -5,6 +5,7 @@
 //   distance, straight line, ABS).
 // Source: the standards of these numbers as they are commonly quoted (the paid texts were not at hand); where a figure
 //   of theirs was not known it is chosen, and the line says so.
+//   The angle of 0.3 g that ISO 19365 asks for is measured as FMVSS 126 has it (49 CFR 571.126, S7.6).
 // Leaves out: repetitions and their statistics, corrections for wind and slope, the tyre warm-up.
 // Tests: tests/vehicle_dynamics/manoeuvre_test.cpp.
 #pragma once
@@ -26,19 +27,20 @@ inline constexpr std::array<std::string_view, 5> kManoeuvreNames{"iso4138", "iso
 struct Manoeuvre {
   std::string name;
   Inputs inputs;
-  Options options;  ///< those given, with speed and driver of the manoeuvre
+  Options options;                   ///< those given, with speed and driver of the manoeuvre
+  double of_three_tenths_rad = 0.0;  ///< iso19365: road-wheel angle at which this car has 0.3 g
 };
 
 /// One result, as it is printed: "stopping distance", 36.1, "m".
 struct Figure {
   std::string what;
-  double value = 0.0;
-  const char* unit = "";
+  double value = 0.0;  ///< NaN: there is none
+  std::string unit;    ///< or, where there is no value, why
 };
 
 /// `speed_mps` 0: the standard's own (80 km/h; 100 for iso4138 and iso21994, 60 for iso3888-2). `scale`: of the
-/// steering amplitude of iso19365 over the one of 0.3 g (1 to 6.5). Error: the level or the vehicle does not go with
-/// it.
+/// steering amplitude of iso19365 over the one of 0.3 g (1 to 6.5), for which it drives the car on a dry level road.
+/// Error: the level or the vehicle does not go with it, or the car never has 0.3 g.
 Result<Manoeuvre> manoeuvre(std::string_view name, double speed_mps, double scale, Options options);
 
 /// From all rows of its run, 100 a second or more.

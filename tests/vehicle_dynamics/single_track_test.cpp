@@ -64,7 +64,6 @@ TEST(SingleTrack, ParkingBrakeHoldsByTheWeightOnItsAxle) {
   }
 }
 
-// Over a hole of a metre no tyre hangs on the road, and together they carry what the body's motion says.
 // Drive that its own friction does not carry to the road is held by brakes that could not hold all of it: what the
 // tyres give the car counts. It stands, and what its tyres are told to give adds up to nothing.
 TEST(SingleTrack, BrakesHoldAgainstWheelsThatSpin) {
@@ -92,6 +91,8 @@ TEST(SingleTrack, BrakesHoldAgainstWheelsThatSpin) {
   }
 }
 
+// Over a hole of a metre no tyre hangs on the road, and together they carry what the body's motion says beside its way
+// along the road.
 TEST(SingleTrack, LoadsAddUpToWeightAndMotion) {
   Road hole;
   hole.profiles.push_back(HeightProfile::bumps({{.start_m = 10.0, .height_m = -1.0, .length_m = 6.0}}));
@@ -103,7 +104,9 @@ TEST(SingleTrack, LoadsAddUpToWeightAndMotion) {
   d.run(4.0, 0.0005, [&](const Track& now) {
     const full::Forces f = now.forces();
     const double sum = f.load_n[0] + f.load_n[1] + f.load_n[2] + f.load_n[3];
-    const double carried = weight + now.params.car.sprung_kg * (now.state.z_rate_mps - before_mps) / 0.0005;
+    const single_track::Held held = single_track::held(now.params, now.input, now.state, 0.0005);
+    const double heaves_mps2 = (now.state.z_rate_mps - before_mps) / 0.0005 - f.ax_mps2 * held.rise[0];
+    const double carried = weight * held.level + now.params.car.sprung_kg * heaves_mps2;
     before_mps = now.state.z_rate_mps;
     for (const double load : f.load_n) {
       EXPECT_GE(load, 0.0);
@@ -141,6 +144,53 @@ TEST(SingleTrack, RealTimeStepFollowsAtTheLimit) {
     for (std::size_t i = 0; i < exact.size(); ++i) worst = std::max(worst, std::abs(ours[i] - exact[i]));
     EXPECT_LT(worst, 0.03) << file << ' ' << steer_rad;
   }
+}
+
+// On a slope the wheels carry m g cos, whatever the car does along it, as in full; and on the map it covers cos of its
+// way. It rolls onto it evenly: with the springs at rest nothing is to settle but the dive.
+TEST(SingleTrack, CarriesTheNormalPartOfItsWeightOnASlope) {
+  const double grade = -0.2, cosine = 1.0 / std::hypot(1.0, grade), sine = grade * cosine;
+  Road slope;
+  slope.slope_x = grade;
+  for (const Integrator integrator : {Integrator::kSemiImplicitEuler, Integrator::kEtd2, Integrator::kRk4})
+    for (const bool dynamic : {true, false})
+      for (const auto& [speed_mps, brake_mps2] : {std::pair{16.7, 0.0}, {16.7, 5.0}, {-8.0, 4.0}}) {
+        Track car(test::single_car({.dynamic_attitude = dynamic}));
+        const auto& x = car.params.car.x_m;
+        car.params.integrator = integrator;
+        car.params.front_brake_jack = 0.0;  // what it lifts is no part of this
+        car.input.road = &slope;
+        car.state = single_track::at_rest(car.params, 0.0, 0.0, 0.0, speed_mps,
+                                          {grade * x[0], grade * x[0], grade * x[2], grade * x[2]});
+        EXPECT_NEAR(car.state.z_rate_mps, speed_mps * sine, 1e-12);
+        if (brake_mps2 > 0.0) car.brake(brake_mps2);
+        const double carried_n = car.params.car.mass_kg * kGravity_mps2 * cosine;
+        double way_m = 0.0, most = 0.0, before_mps = speed_mps;
+        // Dive and heave are coupled: what the dive of the braking moves of the loads is 0.5 % for a moment.
+        car.run(1.0, 0.002, [&](const Track& now) {
+          const full::Forces f = now.forces();
+          most = std::max(most, std::abs(f.load_n[0] + f.load_n[1] + f.load_n[2] + f.load_n[3] - carried_n));
+          way_m += 0.5 * (before_mps + now.state.u_mps) * 0.002, before_mps = now.state.u_mps;
+        });
+        EXPECT_LT(most, (brake_mps2 > 0.0 ? 0.015 : 0.002) * carried_n) << static_cast<int>(integrator) << dynamic;
+        EXPECT_NEAR(car.state.x_m, way_m * cosine, 1e-4) << static_cast<int>(integrator) << dynamic;
+        EXPECT_NEAR(car.state.path_m, car.state.x_m, 1e-9);
+      }
+}
+
+// Stopped on it, its body stops with it: no spring is left with the way that the brakes ended.
+TEST(SingleTrack, StopsOnASlopeAtOnce) {
+  Road slope;
+  slope.slope_x = -0.2;
+  Track car(test::single_car(), 0.0);
+  const auto& x = car.params.car.x_m;
+  car.input.road = &slope;
+  car.state =
+      single_track::at_rest(car.params, 0.0, 0.0, 0.0, 0.06, {-0.2 * x[0], -0.2 * x[0], -0.2 * x[2], -0.2 * x[2]});
+  car.brake(10.0);
+  car.run(0.01, 0.01);
+  ASSERT_EQ(car.state.u_mps, 0.0);
+  EXPECT_LT(std::abs(car.state.z_rate_mps), 0.003);  // 0.0118 m/s down the slope before
 }
 
 TEST(SingleTrack, StopsAndReverses) {

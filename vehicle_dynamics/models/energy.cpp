@@ -17,6 +17,7 @@ struct Flow {
   std::array<double, 4> damper_n{}, closing_mps{};         // of the dampers
   std::array<double, 4> up_n{}, ground_m{}, x_m{}, y_m{};  // of the tyres' loads; contacts in the world
   std::array<double, 4> rising_mps{};                      // of the road under the wheels, level single-track
+  double along_n = 0.0, heaving_mps = 0.0;                 // what its body's way along the plane lifts it by
   std::array<double, 3> normal{0.0, 0.0, 1.0};
 };
 
@@ -116,6 +117,7 @@ Flow flow(const single_track::Params& p, const single_track::Held& h, const sing
       out.up_n[i] = axle.spring_npm * give + axle.damper_nspm * closing + 0.5 * linkage_n, out.ground_m[i] = height;
     }
   }
+  out.along_n = car.sprung_kg * (a.ax_mps2 * h.rise[0] + a.ay_mps2 * h.rise[1]), out.heaving_mps = s.z_rate_mps;
   out.tyres_w += h.rolling * (a.front_load_n[0] + a.front_load_n[1] + a.rear_load_n[0] + a.rear_load_n[1]) * s.u_mps;
   out.air_w = h.drag_kgpm * std::abs(s.u_mps) * s.u_mps * s.u_mps;
   return out;
@@ -158,7 +160,9 @@ void add(const single_track::Params& p, const chassis::Input& in, const single_t
   const double climbed_j =
       p.car.mass_kg * kGravity_mps2 * held.level * 0.5 * (before.u_mps + after.u_mps) * dt * held.along +
       p.car.mass_kg * kGravity_mps2 * held.level * 0.5 * (before.v_mps + after.v_mps) * dt * held.bank;
-  account.car_j = had_j + (b.car_j - start_j) + climbed_j;
+  // What the way along a plane gives the heave is had in the speed along it already.
+  const double twice_j = dt * mean_product(a.along_n, b.along_n, a.heaving_mps, b.heaving_mps);
+  account.car_j = had_j + (b.car_j - start_j) + climbed_j - twice_j;
   for (std::size_t i = 0; i < 4; ++i)
     account.road_j += dt * mean_product(a.up_n[i], b.up_n[i], a.rising_mps[i], b.rising_mps[i]);
 }

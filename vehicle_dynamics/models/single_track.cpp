@@ -21,6 +21,11 @@ double steep(double slope) {
   return 1.0 + slope * slope;
 }
 
+// One over the root of 1 + q: by its series where that is exact to the last bit, on all but steep roads.
+double per_root(double q) {
+  return q < 1e-4 ? 1.0 - q * (0.5 - q * (0.375 - q * 0.3125)) : 1.0 / std::sqrt(1.0 + q);
+}
+
 }  // namespace
 
 Grip grip(const Params& p, const Held& held, const State& s) {
@@ -114,7 +119,8 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
   const double fy = front_side + rear_y, felt = fy * p.per_mass_kg;
   const double ay = felt - kGravity_mps2 * held.bank * held.level;
 
-  // the body: what the road lifts it by, the linkage's share, and the lever of the centre of gravity
+  // the body: what the road lifts it by, the linkage's share, the way along a plane that rises, and the lever of the
+  // centre of gravity
   const double front_n = front.from_road_n[0] + front.from_road_n[1] - std::min(front_x, 0.0) * p.front_brake_jack;
   const double rear_n = rear.from_road_n[0] + rear.from_road_n[1] + std::max(rear_x, 0.0) * p.rear_drive_jack;
   const double dive_nm = -car.x_m[0] * front_n - car.x_m[2] * rear_n - car.cg_height_m * fx * steep(held.along);
@@ -139,7 +145,7 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
           .r_ps2 = (car.x_m[0] * front_side + car.x_m[2] * rear_y) * p.per_yaw_kgm2,
           .slip_rate_ps = slip.tan_alpha_ps,
           .slip_decay_ps = slip.decay_ps,
-          .ride = {.heave = (front_n + rear_n) * p.per_sprung_kg,
+          .ride = {.heave = (front_n + rear_n) * p.per_sprung_kg + (ax * held.rise[0] + ay * held.rise[1]),
                    .pitch = dive_nm * p.per_pitch_kgm2,
                    .roll = roll_nm * p.per_roll_kgm2}};
 }
@@ -147,8 +153,9 @@ Acting acting(const Params& p, const Held& held, Two share, const State& s, doub
 void derivative(const Params& p, const Held& h, const State& s, double t_s, State& d) {
   const Acting a = acting(p, h, grip(p, h, s).share, s, t_s);
   const double c = std::cos(s.yaw_rad), sn = std::sin(s.yaw_rad);
-  d.x_m = s.u_mps * c - s.v_mps * sn, d.y_m = s.u_mps * sn + s.v_mps * c;
-  d.yaw_rad = s.r_radps, d.path_m = s.u_mps;
+  const Two over = h.on_map * Two{s.u_mps, s.v_mps};
+  d.x_m = over[0] * c - over[1] * sn, d.y_m = over[0] * sn + over[1] * c;
+  d.yaw_rad = s.r_radps, d.path_m = over[0];
   d.u_mps = a.u_mps2, d.v_mps = a.v_mps2, d.r_radps = a.r_ps2;
   d.front_slip = a.slip_rate_ps[0], d.rear_slip = a.slip_rate_ps[1];
   if (!p.options.dynamic_attitude) return;
@@ -211,6 +218,7 @@ State at_rest(const Params& p, double x_m, double y_m, double yaw_rad, double sp
   s.pitch = -0.5 * (h[0] + h[1] - h[2] - h[3]) * p.per_wheelbase_m,
   s.roll = (h[0] + h[2] - h[1] - h[3]) * p.per_tracks_m;
   s.z_m = 0.5 * (h[0] + h[1]) + p.axles[0].x_m * s.pitch;
+  s.z_rate_mps = -speed_mps * s.pitch * per_root(s.pitch * s.pitch);
   return s;
 }
 
@@ -243,7 +251,8 @@ Asked ask_road(const Params& p, const chassis::Input& in, const State& s, double
     Two from = here.z_m, to = there.z_m, here_friction = here.friction, bend_of = both(1.0);
     if (in.road->placed()) {
       const double c = std::cos(s.yaw_rad), sn = std::sin(s.yaw_rad);
-      const double dx = (s.u_mps * c - s.v_mps * sn) * dt, dy = (s.u_mps * sn + s.v_mps * c) * dt;
+      const double aside_mps = s.v_mps * per_root(s.roll * s.roll);
+      const double dx = (s.u_mps * c - aside_mps * sn) * dt, dy = (s.u_mps * sn + aside_mps * c) * dt;
       for (std::size_t side = 0; side < 2; ++side) {
         const std::size_t i = left + side;
         const double x = s.x_m + c * p.car.x_m[i] - sn * p.car.y_m[i], y = s.y_m + sn * p.car.x_m[i] + c * p.car.y_m[i];
@@ -264,13 +273,20 @@ Asked ask_road(const Params& p, const chassis::Input& in, const State& s, double
     }
     friction += here_friction;
     const Two bend = bend_of * ((there.slope - here.slope) * (0.5 * s.u_mps * per_s));
+    return Under{from, (to - from) * per_s, bend};
+  };
+  const Under front = axle(0), rear = axle(2);
+  // On the map a way up or down a slope is shorter, and its heights come as much later.
+  const Two fall = front.height_m - rear.height_m;
+  const double along = 0.5 * (fall[0] + fall[1]) * p.per_wheelbase_m, over = per_root(along * along);
+  const auto on_map = [&](const Under& under) __attribute__((always_inline)) {
+    const Two bend = over * over * under.bend_mps2;
     // The exponential step looks at its two ends and takes a straight line between: shifted by what the parabola's mean
     // lies beside theirs, the road pushes as much.
     const Two shift = p.integrator == Integrator::kEtd2 ? bend * (dt * dt / -6.0) : Two{};
-    return Under{from + shift, (to - from) * per_s, bend};
+    return Under{under.height_m + shift, over * under.rate_mps, bend};
   };
-  const Under front = axle(0), rear = axle(2);
-  return {front, rear, bank, 0.25 * (friction[0] + friction[1]), off};
+  return {on_map(front), on_map(rear), bank, 0.25 * (friction[0] + friction[1]), off};
 }
 
 }  // namespace
@@ -282,9 +298,8 @@ Held held(const Params& p, const chassis::Input& in, const State& s, double dt) 
   const Two fall = front.height_m - rear.height_m + 0.5 * dt * (front.rate_mps - rear.rate_mps);
   const double across = (all[0] - all[1]) * p.per_tracks_m, across_rate = (all_rate[0] - all_rate[1]) * p.per_tracks_m;
   const double along = 0.5 * (fall[0] + fall[1]) * p.per_wheelbase_m, bank = bank_m * p.per_tracks_m;
-  // One over the root of 1 + q: by its series where that is exact to the last bit, on all but steep roads.
-  const double q = along * along + bank * bank;
-  const double level = q < 1e-4 ? 1.0 - q * (0.5 - q * (0.375 - q * 0.3125)) : 1.0 / std::sqrt(1.0 + q);
+  const double level = per_root(along * along + bank * bank);
+  const Two on_map = bank == 0.0 ? Two{level, 1.0} : Two{per_root(along * along), per_root(bank * bank)};
 
   // Of the steering, and of the heading that the yaw rate brings in half a step.
   const SineCosine turned = sine_cosine(Two{in.steer_rad, s.yaw_rad + 0.5 * dt * s.r_radps});
@@ -348,6 +363,8 @@ Held held(const Params& p, const chassis::Input& in, const State& s, double dt) 
           .across_rate_ps = across_rate,
           .bank = bank,
           .level = level,
+          .on_map = on_map,
+          .rise = on_map * Two{along, bank},
           .cosine = cosine,
           .sine = sine,
           .yaw_cosine = turned.cosine[1],

@@ -5,8 +5,8 @@
 // Source: M. Mitschke, H. Wallentowitz, Dynamik der Kraftfahrzeuge, 5th ed. 2014, ch. 19 (single track); D. L.
 //   Milliken, W. F. Milliken, Race Car Vehicle Dynamics, 1995, ch. 5 and 18; body on springs in series with the
 //   tyres, its step in ride.h.
-// Frame: position and velocity of the centre of gravity, ISO 8855; attitude as slopes against the horizontal, small
-//   angles.
+// Frame: centre of gravity, ISO 8855; place and heave in the world, the other velocities along the plane through the
+//   contacts; attitude as slopes against the horizontal, small angles.
 // Leaves out: wheel hop and lift-off, wheel spin and locking (tyre force follows torque up to the friction limit),
 //   differences between left and right tyres, damping of the tyres.
 // Tests: tests/vehicle_dynamics/single_track_test.cpp (closed forms), reference_test.cpp (two other programs, error
@@ -66,6 +66,7 @@ struct State {
 inline constexpr std::size_t kStateSize = 15;
 static_assert(sizeof(State) == kStateSize * sizeof(double));
 
+/// Its springs are at rest: with a speed it rolls evenly along the plane through the contacts.
 State at_rest(const Params& params, double x_m, double y_m, double yaw_rad, double speed_mps,
               const std::array<double, 4>& height_m);
 
@@ -89,6 +90,8 @@ struct Held {
                                                            ///< step's middle, across at its start
   double bank = 0.0;                ///< of it what pulls aside: of mesh or plane, two tracks of unlike height are none
   double level = 1.0;               ///< what is left of a load on that plane
+  Two on_map{1.0, 1.0};             ///< what a way along the car, and aside, is on the map
+  Two rise{};                       ///< and how far it rises
   double cosine = 1.0, sine = 0.0;  ///< of the steering
   double yaw_cosine = 1.0, yaw_sine = 0.0;       ///< of the heading in the middle of the step
   double front_push_n = 0.0, rear_push_n = 0.0;  ///< drive less brake torque at the tread

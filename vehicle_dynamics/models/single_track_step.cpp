@@ -21,7 +21,7 @@ void set_body(State& s, const ride::Body& b) {
 
 // The place, with the mean velocities: those at both ends of the step are known.
 void travel(const Held& h, const State& before, State& s, double dt) {
-  const double u = 0.5 * (before.u_mps + s.u_mps), v = 0.5 * (before.v_mps + s.v_mps);
+  const double u = 0.5 * (before.u_mps + s.u_mps) * h.on_map[0], v = 0.5 * (before.v_mps + s.v_mps) * h.on_map[1];
   s.x_m = before.x_m + dt * (u * h.yaw_cosine - v * h.yaw_sine);
   s.y_m = before.y_m + dt * (u * h.yaw_sine + v * h.yaw_cosine);
   s.yaw_rad = before.yaw_rad + dt * 0.5 * (before.r_radps + s.r_radps), s.path_m = before.path_m + dt * u;
@@ -68,6 +68,7 @@ void step_exponential(const Params& p, const Held& h, const ride::Step& ride, St
                           0.5 * (first.ahead_n[1] + last.ahead_n[1]);
     const double more_mps2 = h.stopped ? 0.0 : (front_n * h.cosine + rear_n) * p.per_effective_kg;
     s.u_mps += dt * more_mps2;
+    change.heave += 2.0 * more_mps2 * h.rise[0];
     change.pitch -=
         2.0 * p.car.cg_height_m * p.car.mass_kg * more_mps2 * p.per_pitch_kgm2;  // twice at the end: in the mean
   }
@@ -184,7 +185,10 @@ void finish_step(const chassis::Input& in, const Held& h, const State& before, S
   const bool braked = in.brake_nm[0] + in.brake_nm[1] + in.brake_nm[2] + in.brake_nm[3] > 0.0;
   // Brakes end a motion and begin none; a car that slides aside may well turn from forwards to backwards.
   const bool turned = before.u_mps * s.u_mps < 0.0 && std::abs(before.u_mps) <= h.sticks_mps;
-  if (h.stopped || (braked && turned)) s.u_mps = 0.0;
+  if (h.stopped || (braked && turned)) {
+    s.z_rate_mps -= s.u_mps * h.rise[0];  // the body's way along the slope ends with it
+    s.u_mps = 0.0;
+  }
   // An exponential never ends: what has faded to nothing is none, before it becomes a denormal number, ten times as
   // slow.
   constexpr double kNothing = 1e-100;
