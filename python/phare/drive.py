@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import random
@@ -12,13 +13,13 @@ import tempfile
 import threading
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Iterator, Mapping, Sequence
 
 import numpy as np
 import pandas as pd
 
 from .drive_file import Drive, read_drive
-from .errors import BadInput, Failed, LawFailed
+from .errors import BadInput, Failed, LawFailed, told
 from .png import read_png
 from .programs import program, raise_for
 from .rig import Rig, shipped_file
@@ -93,7 +94,7 @@ class Report:
         """Every message of the drive, where it was recorded."""
         if self._drive is None:
             file = self.folder / "drive.pcap"
-            if not file.exists():
+            if not self._asked_for("--record") or not file.exists():
                 raise BadInput(f"{self.folder}: the drive was not recorded (record=True)")
             self._drive = read_drive(file)
         return self._drive
@@ -132,22 +133,30 @@ class Report:
             rows.append(row)
         return self._drawn(pd.concat([table, pd.DataFrame(rows, index=table.index)], axis=1))
 
+    @property
+    def led_by_law(self) -> bool:
+        """Whether a control law led it: then there are `law` and `law_steps`."""
+        return self._asked_for("--law") and (self.folder / "law.csv").exists()
+
+    def _asked_for(self, flag: str) -> bool:
+        """What another drive left in the folder is not of this one."""
+        return any(word == flag or word.startswith(f"{flag}=") for word in self.raw.get("command", [flag]))
+
     def _drawn(self, table: pd.DataFrame) -> pd.DataFrame:
         """Lockstep: up to the last frame that was drawn. Whether the processes had begun the next when it ended is chance."""
         if not self.raw.get("lockstep") or table.empty:
             return table
         return table[table.frame_index <= self.pictures.frame_index.max()]
 
-
     @property
     def law_steps(self) -> pd.DataFrame:
         """One row a step of the control law: frame_index as index, time_s, law_ms (of its step on this machine), objects (that
         it was given), nearest_m, seen_time_s, light, levelling_rad."""
         file = self.folder / "law.csv"
-        if not file.exists():
-            raise BadInput(f"{self.folder}: no control law led this drive")
+        if not self.led_by_law:
+            raise BadInput(f"{self.folder}: no control law led this drive to its end")
         steps = pd.read_csv(file, index_col="frame_index", keep_default_na=False, na_values={"nearest_m": ["nan"]})
-        lockstep = self.raw.get("lockstep") and (self.folder / "drive.pcap").exists()
+        lockstep = self.raw.get("lockstep") and self._asked_for("--record") and (self.folder / "drive.pcap").exists()
         return steps[steps.index <= self.pictures.frame_index.max()] if lockstep else steps
 
 
@@ -207,12 +216,14 @@ def drive(
     out: folder for pictures and report; None: a folder that goes with the Report. frames: keep each of the first so many
     and end then; None: to the end of the drive. size: pixels, "320x180" or (320, 180). level: of the car's model. lockstep:
     reproducible bit for bit; else in real time. record: keep every message (the time series of the Report). overwrite: put this
-    drive in the place of another in `out`. controller: a control law, which leads the lamps; sensors: what it is given.
+    drive in the place of another in `out`, which stays as it is where this one cannot begin. controller: a control law, which leads the lamps; sensors: what it is given.
     settings: of the picture, as `phare control set` has them. port_base: first of 30 UDP ports; None: free ones. timeout_s: of
     the clock on the wall. more: further words for `phare drive`.
 
     Raises BadInput with the program's words, Failed when the drive did not come to its end, LawFailed when the law did not.
     """
+    if sensors is not None and controller is None:
+        raise BadInput("sensors: are of a control law, and there is no controller")
     kept_by = None
     if out is None:
         kept_by = tempfile.TemporaryDirectory(prefix="phare-drive-")
@@ -220,14 +231,14 @@ def drive(
     folder = Path(out).absolute()
     if (folder / "report.json").exists() and not overwrite:
         raise BadInput(f"{folder}: holds a drive; overwrite=True puts this one in its place")
-    folder.mkdir(parents=True, exist_ok=True)
-
-    rig_file: Path | None = None
-    if isinstance(rig, Rig):
-        rig_file = rig.write(folder / "driven.toml")
-    elif rig is not None:
-        rig_file = Path(rig).absolute()
-    base = free_ports() if port_base is None else port_base
+    with told(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+    rig_file = folder / "driven.toml" if isinstance(rig, Rig) else None if rig is None else Path(rig).absolute()
+    more, chosen = _port_in(more)
+    if chosen is not None and port_base is not None:
+        raise BadInput(f"port_base is {port_base}, and --port-base of more {chosen}: one of both")
+    base = next((port for port in (port_base, chosen) if port is not None), None)
+    base = free_ports() if base is None else base
     words = ["drive", "--headless", "--overwrite", "--out", str(folder), "--port-base", str(base)]
     given: dict[str, Any] = {
         "--rig": rig_file, "--lamp-high": lamp_high, "--lamp-fog": lamp_fog, "--aim": aim, "--drive": drive,
@@ -243,18 +254,73 @@ def drive(
         words += ["--set", f"{name}={value}"]
     words += (["--lockstep"] if lockstep else []) + (["--law"] if controller is not None else []) + list(more)
     command = [str(program()), *words]
-    if controller is None:
-        _watch(command, timeout_s, lambda: None)
-        return Report(folder, command, kept_by)
+    inputs = [rig_file, *(Path(file) for file in (drive, log, script) if file is not None)]
+    with _in_place_of(folder, [file for file in inputs if file is not None]):
+        if isinstance(rig, Rig):
+            rig.write(folder / "driven.toml")
+        if controller is None:
+            _watch(command, timeout_s, lambda: None)
+            return Report(folder, command, kept_by)
 
-    from .control.link import Link
+        from .control.link import Link, design_shown
 
-    own = folder / "rig.toml" if lamp is not None or lamp_high is not None or lamp_fog is not None else None
-    with Link(controller, rig_file or shipped_file("rigs/country_road.toml"), base, lockstep, sensors, own) as link:
-        _watch(command, timeout_s, link.fault)
-    report = Report(folder, command, kept_by)
+        own = folder / "rig.toml" if lamp is not None or lamp_high is not None or lamp_fog is not None else None
+        of_link = (controller, rig_file or shipped_file("rigs/country_road.toml"), base, lockstep, sensors, own)
+        with Link(*of_link, design_shown(settings or {}, more)) as link:
+            _watch(command, timeout_s, link.fault)
     link.write_csv(folder / "law.csv")
-    return report
+    return Report(folder, command, kept_by)
+
+
+def _port_in(more: Sequence[str]) -> tuple[list[str], int | None]:
+    """Words without --port-base, which the law needs to know, too; and that port."""
+    words, left, port = [part for word in more for part in (word.split("=", 1) if word.startswith("--port-base=") else [word])], [], None
+    while words:
+        word = words.pop(0)
+        if word != "--port-base":
+            left.append(word)
+        elif not words or not words[0].isdecimal():
+            raise BadInput(f"--port-base: expected a number, got {words[0] if words else 'nothing'}")
+        else:
+            port = int(words.pop(0))
+    return left, port
+
+
+@contextlib.contextmanager
+def _in_place_of(folder: Path, inputs: Sequence[Path]) -> Iterator[None]:
+    """What this package puts beside a report goes with the drive that it belongs to. Where the new drive did not begin, so that
+    report.json is the one of before, it stays; else what the new one has not written and is not driven from is removed."""
+    beside = [folder / name for name in ("driven.toml", "drive.pcap", "law.csv")]
+    of_rig, report = beside[0], folder / "report.json"
+    rig_before = of_rig.read_bytes() if of_rig.exists() else None
+    before = {file: _stamp(file) for file in (*beside, report)}
+    try:
+        yield
+    finally:
+        begun = _stamp(report) != before[report]
+        for file in beside if begun else ():
+            if before[file] is not None and _stamp(file) == before[file] and not any(_same(file, one) for one in inputs):
+                file.unlink()
+        if not begun and _stamp(of_rig) != before[of_rig]:
+            if rig_before is None:
+                of_rig.unlink()
+            else:
+                part = of_rig.with_name(of_rig.name + ".part")
+                part.write_bytes(rig_before)
+                part.replace(of_rig)
+
+
+def _stamp(file: Path) -> tuple[int, int, int] | None:
+    """Of a file's contents; None: there is none."""
+    try:
+        of = file.stat()
+    except OSError:
+        return None
+    return of.st_ino, of.st_size, of.st_mtime_ns
+
+
+def _same(one: Path, other: Path) -> bool:
+    return other.exists() and one.samefile(other)
 
 
 def _watch(command: Sequence[str], timeout_s: float | None, fault: Callable[[], LawFailed | None]) -> None:

@@ -16,12 +16,18 @@ import pandas as pd
 
 from . import phare_pb2 as pb
 from . import wire
-from .errors import BadInput
+from .errors import BadInput, told
 
 _MICRO, _NANO = 0xA1B2C3D4, 0xA1B23C4D
 _RAW, _ETHERNET = 101, 1
 _PORTS = {pb.SENDER_COCKPIT: 0, pb.SENDER_DYNAMICS: 1, pb.SENDER_CONTROL: 3, pb.SENDER_LAW: 4}
 _RECORDER, _FIRST_VISUAL = 2, 10
+_LAST_S = 0xFFFFFFFF  # that a record's stamp holds
+
+
+def _is_list(of: Any) -> bool:
+    """A field of a message: protobuf 7 has is_repeated in place of label, old releases have label alone."""
+    return bool(of.is_repeated) if hasattr(of, "is_repeated") else bool(of.label == of.LABEL_REPEATED)
 
 
 @dataclass
@@ -56,7 +62,7 @@ class Drive:
                 {
                     of.name: getattr(message, of.name)
                     for of in message.DESCRIPTOR.fields
-                    if of.label != of.LABEL_REPEATED and of.message_type is None
+                    if not _is_list(of) and of.message_type is None
                 }
             )
         return pd.DataFrame(rows, index=pd.Index(times, name="sim_time_s", dtype=float))
@@ -85,7 +91,8 @@ def read_drive(file: str | os.PathLike[str], *, key: bytes | None = None) -> Dri
     key: of datagrams that were captured with their seal, as by tcpdump. A file cut anywhere is read up to its last whole
     record. Raises BadInput when it is no such file.
     """
-    data = Path(file).read_bytes()
+    with told(file):
+        data = Path(file).read_bytes()
     order = next((o for o in "<>" if len(data) >= 24 and struct.unpack_from(o + "I", data)[0] in (_MICRO, _NANO)), None)
     if order is None:
         raise BadInput(f"{file}: no pcap file (editcap -F nsecpcap makes one of a pcapng)")
@@ -129,10 +136,16 @@ def _ip_checksum(header: bytes) -> int:
 
 def write_drive(file: str | os.PathLike[str], datagrams: Iterable[pb.Datagram], *, port_base: int = 47000) -> None:
     """Writes a drive file that phare drive --drive replays and Wireshark opens. An existing one is replaced, whole."""
+    if not 0 < port_base <= 65535 - 30:
+        raise BadInput(f"port_base = {port_base}: expected 1 to 65505")
     out = bytearray(struct.pack("<IHHiIII", _NANO, 2, 4, 0, 0, 65535 + 28, _RAW))
     for datagram in datagrams:
+        if not isinstance(datagram, pb.Datagram):
+            raise BadInput(f"{file}: {datagram!r} is no datagram")
         if datagram.sim_time_ns < 0:
             raise BadInput(f"{file}: a time before the start of the drive has no place in a drive file")
+        if datagram.sim_time_ns >= (_LAST_S + 1) * 1_000_000_000:
+            raise BadInput(f"{file}: a time behind {_LAST_S} s has no place in a drive file")
         body = wire.encode(datagram)
         if len(body) > 65507:
             raise BadInput(f"{file}: a datagram of {len(body)} bytes, at most 65507 fit")
@@ -142,8 +155,9 @@ def write_drive(file: str | os.PathLike[str], datagrams: Iterable[pb.Datagram], 
         seconds, nanoseconds = divmod(datagram.sim_time_ns, 1_000_000_000)
         out += struct.pack("<IIII", seconds, nanoseconds, 28 + len(body), 28 + len(body)) + ip + udp + body
     beside = Path(f"{os.fspath(file)}.part")
-    beside.write_bytes(out)
-    beside.replace(file)
+    with told(file):
+        beside.write_bytes(out)
+        beside.replace(file)
 
 
 def poses(
@@ -165,9 +179,16 @@ def poses(
 
     Frames as in net/phare.proto: x forward, y left, z up; pitch nose down.
     """
-    times = np.atleast_1d(np.asarray(time_s, float))
-    if times.size < 2 or not np.isfinite(times).all() or times[0] < 0 or (np.diff(times) <= 0).any():
-        raise BadInput("poses: time_s must be finite, rise, begin at 0 or later, and have two values or more")
+    try:
+        times = np.asarray(time_s, float)
+    except (TypeError, ValueError) as error:
+        raise BadInput(f"poses: time_s: {error}") from error
+    if times.ndim != 1 or times.size < 2 or not np.isfinite(times).all() or times[0] < 0 or (np.diff(times) <= 0).any():
+        raise BadInput("poses: time_s must be one list, finite, rise, begin at 0 or later, and have two values or more")
+    if times[-1] > _LAST_S:
+        raise BadInput(f"poses: time_s is {times[-1]:g}, and a drive file ends at {_LAST_S} s")
+    if not isinstance(start_id, (int, np.integer)) or not 0 <= start_id < 1 << 64:
+        raise BadInput(f"poses: start_id = {start_id!r}: expected a whole number of 64 bits, 0 or more")
     given = dict(
         x_m=x_m, y_m=y_m, z_m=z_m, yaw_rad=yaw_rad, pitch_rad=pitch_rad, roll_rad=roll_rad, speed_mps=speed_mps,
         yaw_rate_radps=yaw_rate_radps,
@@ -180,9 +201,9 @@ def poses(
             raise BadInput(f"poses: {name}: {error}") from error
         if not np.isfinite(columns[name]).all():
             raise BadInput(f"poses: {name} is not finite")
-    words = [light] * times.size if isinstance(light, str) else list(light)
+    words = [light] * times.size if isinstance(light, str) else list(light) if isinstance(light, Iterable) else []
     switches = {"off": 0, "position": 1, "low": 2, "high": 3}
-    if len(words) != times.size or any(word not in switches for word in words):
+    if len(words) != times.size or any(not isinstance(word, str) or word not in switches for word in words):
         raise BadInput("poses: light is off, position, low or high, one or one for each time")
     drive = []
     for i, time in enumerate(times):

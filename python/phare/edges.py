@@ -10,14 +10,14 @@ the car in the middle of its own. Demerits and weights are not public, so this g
 from __future__ import annotations
 
 import math
-import os
 from typing import Sequence
 
 import numpy as np
 import pandas as pd
 
 from .errors import BadInput
-from .measuring import measure
+from .measuring import PathLike, measure
+from .rig import Rig
 
 # Radius in m, positive to the left; 0: straight.
 APPROACHES: dict[str, float] = {
@@ -42,12 +42,12 @@ def along(radius_m: float, distance_m: np.ndarray, aside_m: float, height_m: flo
 
 
 def visibility(
-    rig: str | os.PathLike[str], *, beams: Sequence[str] = ("low",), lx: float = 5.0, design: str | None = None
+    rig: Rig | PathLike, *, beams: Sequence[str] = ("low",), lx: float = 5.0, design: str | None = None
 ) -> pd.DataFrame:
     """The farthest distance along the way, m from the car's origin, at which an edge has so many lux; 0: nowhere.
 
     One row an approach and edge: approach, radius_m, edge, distance_m, and open_end where the last distance tried, 250 m, is lit
-    still. rig: a rig file; beams, design: of it. In float64.
+    still. rig: a Rig, or a rig file; beams, design: of it. In float64.
     """
     if not lx > 0:
         raise BadInput(f"visibility: {lx} lx")
@@ -67,7 +67,7 @@ def visibility(
 
 
 def oncoming_glare(
-    rig: str | os.PathLike[str], *, beams: Sequence[str] = ("low",), design: str | None = None
+    rig: Rig | PathLike, *, beams: Sequence[str] = ("low",), design: str | None = None
 ) -> pd.DataFrame:
     """Lux 1.10 m above the middle of the oncoming lane, from 10 to 120 m: distance_m as index, one column an approach."""
     d = np.arange(10.0, 120.0 + _STEP_M / 2, _STEP_M)

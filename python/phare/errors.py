@@ -1,5 +1,11 @@
 """What can go wrong: the programs' own words as exceptions."""
 
+from __future__ import annotations
+
+import contextlib
+import os
+from typing import Iterator
+
 
 class PhareError(Exception):
     """Phare could not do what was asked; the text is the program's own message."""
@@ -19,3 +25,12 @@ class NotFound(PhareError):
 
 class LawFailed(PhareError):
     """A control law raised, ended, or answered what cannot be followed; `__cause__` is what it raised."""
+
+
+@contextlib.contextmanager
+def told(place: str | os.PathLike[str]) -> Iterator[None]:
+    """What the system says of a file or folder, as BadInput with its name."""
+    try:
+        yield
+    except OSError as wrong:
+        raise BadInput(f"{os.fspath(place)}: {wrong.strerror or wrong}") from wrong

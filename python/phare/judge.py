@@ -1,9 +1,9 @@
 """Judges a drive by the light at the eyes and mirrors of other road users (docs/laws.md).
 
 Limits: FMVSS 108 S9.4.1.6, Table XXI, lux at the receptor from the whole vehicle, by range; one source each but the last bin's, which has
-two. They belong to track tests with fixtures whose receptors are prescribed; here receptors sit where a driver's eyes and a car's mirrors
-are by eye, and every moment of any drive counts. So this compares laws, and approves none. Shadows are left out, but for the road's
-own crests.
+two. They belong to track tests with fixtures whose receptors are prescribed; here receptors sit where the eyes and mirrors of RECEPTORS_M
+are by eye, and every moment of any drive counts. Who drives or rides is judged; pedestrians and deer are not, for whom the rule has no
+limit. So this compares laws, and approves none. Shadows are left out, but for the road's own crests.
 
 UN R123, Table 7, candela, half the sum of both sides, for states of a lamp in the laboratory: one transcription; that UN R149 has the
 same is unconfirmed. Here they are held against what shines at a receptor as it passes 50, 100 and 200 m, where it lies within the angles of
@@ -24,9 +24,9 @@ import pandas as pd
 from .control.road_users import Lane, RoadUser
 from .control.sensors import Eyes, Pose, Sensors
 from .drive import Report
-from .errors import BadInput
-from .light_in_drive import lux_in_drive
-from .rig import Rig, resolved
+from .errors import BadInput, told
+from .light_in_drive import design_of_frames, lux_in_drive
+from .rig import Rig, resolved, rig_of
 
 # Range from, to in m; limit in lx for oncoming and for preceding drivers (None: there is no limit).
 LIMITS: tuple[tuple[float, float, float, float | None], ...] = (
@@ -46,10 +46,18 @@ UN_LINES: tuple[tuple[bool, float, float, float, float], ...] = (
     (False, 100.0, 0.5, 0.9, 7000.0),
     (False, 200.0, -0.45, 0.45, 16000.0),
 )
+Places = tuple[tuple[float, float, float], ...]
 # Of the body's middle: along its heading, to its left, above the road; m. A driver's eyes in a car that keeps right, and the
-# three mirrors of one that drives before us. Chosen by eye.
-EYES_M = ((0.0, 0.35, 1.2),)
-MIRRORS_M = ((0.6, 0.0, 1.25), (0.8, 0.95, 1.0), (0.8, -0.95, 1.0))
+# three mirrors of one that drives before us; those of a lorry are higher, and get less light, so a car's stand for them. Riders sit in the
+# middle: a motorcycle has a mirror at each handle, a bicycle none. Chosen by eye.
+EYES_M: Places = ((0.0, 0.35, 1.2),)
+MIRRORS_M: Places = ((0.6, 0.0, 1.25), (0.8, 0.95, 1.0), (0.8, -0.95, 1.0))
+RECEPTORS_M: dict[str, tuple[Places, Places]] = {
+    "car": (EYES_M, MIRRORS_M),
+    "lorry": (EYES_M, MIRRORS_M),
+    "motorcycle": (((0.0, 0.0, 1.35),), ((0.4, 0.4, 1.1), (0.4, -0.4, 1.1))),
+    "bicycle": (((0.0, 0.0, 1.55),), ()),
+}
 
 _LAMPS_M = (3.45, 0.66)  # of the headlamps: ahead of the rear axle, above the ground; as the shipped rigs have them
 
@@ -82,7 +90,7 @@ class Glare:
         plots = "".join(_of_user(user, of_user) for user, of_user in self.moments.groupby("user"))
         table = self.bins.to_html(index=False, na_rep="–", float_format=lambda value: f"{value:.2f}")
         un = self.un.to_html(index=False, float_format=lambda value: f"{value:.0f}") if len(self.un) else "<p>Nobody has passed them.</p>"
-        Path(file).write_text(
+        page = (
             f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(title)}</title></head>'
             f'<body style="font:15px sans-serif;margin:2rem"><h1>{html.escape(title)}</h1><p>Above a limit for {self.above_s:.2f} s '
             f"of {self.judged_s:.2f} s in which one holds. Limits: FMVSS 108 Table XXI; receptors and course are not those of "
@@ -90,24 +98,26 @@ class Glare:
             f"sum of both sides, against UN R123 Table 7 (one transcription; that UN R149 has the same is unconfirmed), whose lines are "
             f"states of a lamp in the laboratory.</p>{un}</body></html>\n"
         )
+        with told(file):
+            Path(file).write_text(page)
 
 
-def judge_glare(report: Report, rig: Rig, road_users: Sequence[RoadUser], design: str | None = None) -> Glare:
+def judge_glare(report: Report, rig: Rig | str | Path, road_users: Sequence[RoadUser], design: str | None = None) -> Glare:
     """Lux at every road user in every frame of a recorded lockstep drive, by the lamps as the control law, or without one the
     stalk, had them.
 
-    rig: that was driven; design: of it [its first]. Illuminance is by `phare measure` in float64, source by source.
+    rig: that was driven, or its file; design: of it [that was driven]. Illuminance is by `phare measure` in float64, source by source.
     """
-    car = report.car
+    rig, car = rig_of(rig), report.car
     lane_file = resolved(rig.scene)
     lane = Lane(lane_file.with_name(lane_file.stem + "_lane.csv"))
     frames = car.frame_index.to_numpy()
     if (frames < 0).any():
         raise BadInput(f"{report.folder}: a drive in real time has no frames that car, controls and law share: drive in lockstep")
-    lit = rig.design(design) if design else rig.designs[0]
+    lit = design_of_frames(report, rig, design)
     rows = receptors_of(car, lane, road_users)
     if rows.empty:
-        return Glare(rows.assign(lx=[], limit_lx=[], above=[]), _bins(rows.assign(lx=[])), 0.0, 0.0)
+        return Glare(rows.assign(lx=[], limit_lx=[], above=[]), _bins(rows.assign(lx=[])), 0.0, 0.0, _un_table([]))
     rows["lx"] = lux_in_drive(rows, report, rig, lit)
     return judged(rows, 1.0 / rig.frame_rate_hz)
 
@@ -138,11 +148,15 @@ def _un_lines(rows: pd.DataFrame) -> pd.DataFrame:
             most += list(around.cd[(around.right_deg > from_deg) & (around.right_deg <= to_deg)])
         if most:
             found.append(["oncoming" if oncoming else "preceding", at_m, from_deg, to_deg, max(most), limit_cd, max(most) <= limit_cd])
+    return _un_table(found)
+
+
+def _un_table(found: list[list[object]]) -> pd.DataFrame:
     return pd.DataFrame(found, columns=["receptor", "at_m", "from_deg", "to_deg", "most_cd", "limit_cd", "passed"])
 
 
 def receptors_of(car: pd.DataFrame, lane: Lane, users: Sequence[RoadUser]) -> pd.DataFrame:
-    """A row a receptor and frame: place and normal in the car's frame.
+    """A row a receptor and frame: place and normal in the car's frame. Whose kind has no RECEPTORS_M is nobody to dazzle.
 
     car: by time_s, frame_index, x_m, y_m, z_m, roll_rad, pitch_rad, yaw_rad.
     """
@@ -153,14 +167,14 @@ def receptors_of(car: pd.DataFrame, lane: Lane, users: Sequence[RoadUser]) -> pd
         ego_s_m = lane.nearest_s_m(state.x_m, state.y_m)
         for number, user in enumerate(users, 1):
             there = user.pose(lane, float(time_s))
-            if user.direction == "standing" or there is None:
+            if user.direction == "standing" or there is None or user.kind not in RECEPTORS_M:
                 continue
             place, along = there.place_m, there.along
             left = np.array([-along[1], along[0], 0.0])
             oncoming = float(np.dot(along, origin - place)) > 0
             if ego_s_m is not None and eyes._behind_a_crest(ego_s_m, there.s_m, pose, place[2] + 1.2):
                 continue
-            for receptor, (a, b, up) in enumerate(EYES_M if oncoming else MIRRORS_M):
+            for receptor, (a, b, up) in enumerate(RECEPTORS_M[user.kind][0 if oncoming else 1]):
                 at = turn @ (place + a * along + b * left + np.array([0, 0, up]) - origin)
                 normal = turn @ (along if oncoming else -along)
                 if at[0] > 4.0:

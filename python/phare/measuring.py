@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
+import csv
 import os
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Iterable, Sequence
+from typing import Any, Iterable, Iterator, Sequence
 
 import numpy as np
 import pandas as pd
@@ -14,6 +16,7 @@ import pandas as pd
 from .errors import BadInput
 from .lamp import Lamp
 from .programs import run
+from .rig import Rig, file_of
 
 PathLike = str | os.PathLike[str]
 
@@ -34,21 +37,30 @@ class Mounted:
 
     def words(self) -> str:
         """As --lamp of the programs has it."""
-        file = os.fspath(self.lamp.file if isinstance(self.lamp, Lamp) else self.lamp)
+        file, reading = (self.lamp.file, self.lamp.reading) if isinstance(self.lamp, Lamp) else (self.lamp, {})
+        file = os.fspath(file)
         quoted = '"' + file.replace('"', '""') + '"' if "," in file or '"' in file else file
         places = {"x": self.x_m, "y": self.y_m, "z": self.z_m}
         turns = {"yaw_deg": self.yaw_deg, "pitch_deg": self.pitch_deg, "roll_deg": self.roll_deg}
-        words = [f"{key}={float(value)!r}" for key, value in places.items()]
-        words += [f"{key}={float(value)!r}" for key, value in turns.items() if value]
-        words += [f"scale={float(self.scale)!r}"] if self.scale != 1.0 else []
+        words = [f"{key}={_number(key, value)!r}" for key, value in places.items()]
+        words += [f"{key}={_number(key, value)!r}" for key, value in turns.items() if value]
+        words += [f"scale={_number('scale', self.scale)!r}"] if self.scale != 1.0 else []
+        words += [f"{key}={1 if value is True else value}" for key, value in reading.items()]  # as the lamp was read
         return ",".join([quoted, *words])
 
 
+def _number(name: str, value: Any) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError) as wrong:
+        raise BadInput(f"Mounted: {name} is {value!r}, expected a number") from wrong
+
+
 def measure(
-    lamps: Mounted | str | Sequence[Mounted | str] | PathLike,
+    lamps: Mounted | Rig | str | Sequence[Mounted | str] | PathLike,
     points: Any,
     *,
-    beams: str | Sequence[str] = "low",
+    beams: str | Sequence[str] | None = None,
     design: str | None = None,
     reference: bool = False,
     each: bool = False,
@@ -56,7 +68,7 @@ def measure(
 ) -> np.ndarray:
     """Illuminance in lux at points, of shape (points,).
 
-    lamps: Mounted lamps, or their words as --lamp of `phare measure` takes them; a rig file (.toml) stands for all its lamps,
+    lamps: Mounted lamps, or their words as --lamp of `phare measure` takes them; a Rig or its file (.toml) stands for all its lamps,
     with `beams` ("low", "high", "fog") of `design`, the car at the origin.
     points: positions in m, three numbers each, or six with the unit normal of the surface; without one it is horizontal,
         (0, 0, 1). A list may hold both.
@@ -65,19 +77,19 @@ def measure(
     scene: a glTF file whose shadows count; a lamp that something hides from a point gives it nothing.
     """
     at = _points(points)
-    if len(at) == 0:
-        return np.zeros(0)
-    words = _lamp_words(lamps, beams, design)
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, _lamp_words(lamps, beams, design) as words:
+        if len(at) == 0:
+            return np.zeros(0)
         file, out = Path(folder) / "points.csv", Path(folder) / "lux.csv"
         lines = ["x_m,y_m,z_m,nx,ny,nz", *(",".join(repr(value) for value in row) for row in at.tolist())]
         file.write_text("\n".join(lines) + "\n")
         method = ["--method", "reference"] if reference else []
         shadows = ["--scene", os.fspath(scene)] if scene is not None else []
         run(["measure", *words, "--points", file, "--out", out, *method, *shadows])
-        answer = pd.read_csv(out, float_precision="round_trip")
-    columns = [name for name in answer.columns if name.startswith("illuminance_lx")]
-    lux = answer[columns].to_numpy(float)
+        with out.open(newline="") as answer:
+            header, *rows = csv.reader(answer)
+    columns = [i for i, name in enumerate(header) if name.startswith("illuminance_lx")]
+    lux = np.array([[float(row[i]) for i in columns] for row in rows])
     return lux if each else lux[:, 0]
 
 
@@ -102,15 +114,24 @@ def _points(points: Any) -> np.ndarray:
     return at
 
 
-def _lamp_words(lamps: Any, beams: str | Sequence[str], design: str | None) -> list[str]:
-    one = isinstance(lamps, (str, os.PathLike, Mounted))
-    listed = [lamps] if one else list(lamps)
+@contextlib.contextmanager
+def _lamp_words(lamps: Any, beams: str | Sequence[str] | None, design: str | None) -> Iterator[list[str]]:
+    if isinstance(lamps, Rig) or isinstance(lamps, (str, os.PathLike)) and os.fspath(lamps).endswith(".toml"):
+        lit = "low" if beams is None else beams if isinstance(beams, str) else ",".join(beams)
+        with file_of(lamps) as file:
+            yield ["--rig", str(file), "--beams", lit] + (["--design", design] if design else [])
+        return
+    for name, value in (("beams", beams), ("design", design)):
+        if value is not None:
+            raise BadInput(f"measure: {name} = {value!r}: are of a rig file, and lamps are given")
+    listed = list(lamps) if isinstance(lamps, Iterable) and not isinstance(lamps, (str, os.PathLike)) else [lamps]
     if not listed:
         raise BadInput("measure: no lamp")
-    if one and not isinstance(lamps, Mounted) and os.fspath(lamps).endswith(".toml"):
-        lit = beams if isinstance(beams, str) else ",".join(beams)
-        return ["--rig", os.fspath(lamps), "--beams", lit] + (["--design", design] if design else [])
     words: list[str] = []
     for lamp in listed:
+        if isinstance(lamp, Lamp):
+            raise BadInput(f"measure: {lamp} has no place: give Mounted(lamp, x_m, y_m, z_m)")
+        if not isinstance(lamp, (Mounted, str, os.PathLike)):
+            raise BadInput(f"measure: {lamp!r} is neither a Mounted lamp nor the words of one")
         words += ["--lamp", lamp.words() if isinstance(lamp, Mounted) else os.fspath(lamp)]
-    return words
+    yield words

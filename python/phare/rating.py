@@ -21,7 +21,7 @@ import pandas as pd
 
 from .edges import APPROACHES, SPEEDS_MPS, oncoming_glare, visibility
 from .errors import BadInput
-from .rig import Rig
+from .rig import Rig, rig_of
 from .toml_in import place_in, read_toml
 
 PathLike = str | os.PathLike[str]
@@ -75,6 +75,9 @@ def _checked(file: Path, kind: str, count: int, row: Any) -> dict[str, Any]:
     place = f"{place_in(file, kind, count)}: [[{kind}]] {count}"
     if not isinstance(row, dict) or set(row) != set(_KEYS[kind]):
         raise BadInput(f"{place}: expected the keys {', '.join(_KEYS[kind])}")
+    words = [row[key] for key in ("approach", "beam", "edge") if key in row]
+    if not all(isinstance(word, str) for word in words):
+        raise BadInput(f"{place}: {', '.join(map(repr, words))}: expected words")
     if row["approach"] not in APPROACHES:
         raise BadInput(f"{place}: approach {row['approach']!r} is none of {', '.join(APPROACHES)}")
     if kind == "visibility":
@@ -165,8 +168,8 @@ def demerits_of(reach: pd.DataFrame, above: pd.DataFrame, limits: Limits, *, ass
     return pd.DataFrame(rows, columns=["approach", "beam", "what", "demerits"])
 
 
-def rate_iihs(rig: PathLike, *, design: str | None = None, limits: PathLike | None = None, assist: bool = False) -> Iihs:
-    """Both beams of a rig file on a straight and four curves, in float64; with `limits` also demerits and a rating by them.
+def rate_iihs(rig: Rig | PathLike, *, design: str | None = None, limits: PathLike | None = None, assist: bool = False) -> Iihs:
+    """Both beams of a rig, or of a rig file, on a straight and four curves, in float64; with `limits` also demerits and a rating by them.
 
     The high beam is lit together with the low beam. assist: the car has high-beam assist; what it gives back is in the limits. Lamps
     stand still: no swivel, no roll of the body in curves. Raises BadInput.
@@ -174,11 +177,11 @@ def rate_iihs(rig: PathLike, *, design: str | None = None, limits: PathLike | No
     read = read_limits(limits) if limits is not None else None
     if assist and (read is None or read.credit_share_01 is None):
         raise BadInput(f"{limits or 'assist'}: how much high-beam assist gives back is not public: give limits with [assist] {_CREDIT}")
-    read_rig = Rig.read(rig)
+    read_rig = rig_of(rig)
     lit_design = read_rig.design(design) if design else read_rig.designs[0]
     for beam in ("low", "high"):
         if not any(source.function == beam for lamp in lit_design.lamps for source in lamp.sources):
-            raise BadInput(f"{os.fspath(rig)}: design {lit_design.name} has no {beam} beam")
+            raise BadInput(f"{'the rig' if isinstance(rig, Rig) else rig}: design {lit_design.name} has no {beam} beam")
     tables = []
     for beam, lit in (("low", ("low",)), ("high", ("low", "high"))):
         table = visibility(rig, beams=lit, design=design)

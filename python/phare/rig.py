@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import os
 import tempfile
 from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Any, Mapping, Sequence
+from typing import Any, Iterator, Mapping, Sequence
 
 from . import toml_out
-from .errors import BadInput
+from .errors import BadInput, told
 from .programs import program, run_json
 from .toml_in import read_toml
 
@@ -45,6 +46,7 @@ def _each_emitter(table: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 _OF_SOURCE = ("pixels", "pixel_map", "spectrum")  # further files of one
+_OF_RIG = ("traffic", "street_lamps")
 
 
 @dataclass
@@ -135,8 +137,9 @@ class Rig:
         document = copy.deepcopy(document)
         for key in ("scene", "vehicle", "cockpit"):
             document[key] = absolute(document[key])
-        if "traffic" in document:
-            document["traffic"] = absolute(document["traffic"])
+        for key in _OF_RIG:
+            if document.get(key):
+                document[key] = absolute(document[key])
         if document.get("bus", {}).get("key_file"):
             document["bus"]["key_file"] = absolute(document["bus"]["key_file"])
         designs = []
@@ -159,10 +162,10 @@ class Rig:
         return cls.read(shipped_file(f"rigs/{name}.toml"))
 
     def files(self) -> list[str]:
-        """What it is read from beside itself: scene, vehicle, cockpit, traffic, and the files of every source."""
+        """What it is read from beside itself: scene, vehicle, cockpit, traffic, street lamps, and the files of every source."""
         sources = [source for design in self.designs for lamp in design.lamps for source in lamp.sources]
         of_sources = [path for source in sources for path in (source.file, *(source.more.get(key) for key in _OF_SOURCE))]
-        return [path for path in (self.scene, self.vehicle, self.cockpit, self.more.get("traffic"), *of_sources) if path]
+        return [path for path in (self.scene, self.vehicle, self.cockpit, *map(self.more.get, _OF_RIG), *of_sources) if path]
 
     def design(self, name: str) -> Design:
         """The design of that name; BadInput names those there are."""
@@ -185,8 +188,10 @@ class Rig:
         """Writes the rig file (an existing one is replaced, whole) and returns where it lies."""
         there = Path(file)
         beside = there.with_name(there.name + ".part")
-        beside.write_text(toml_out.dumps(self.document()))
-        beside.replace(there)
+        text = toml_out.dumps(self.document())
+        with told(there):
+            beside.write_text(text)
+            beside.replace(there)
         return there
 
     def problems(self) -> list[str]:
@@ -199,6 +204,21 @@ class Rig:
     def frame_rate_hz(self) -> int:
         """Frames of lockstep a second of simulated time."""
         return int(self.more.get("clock", {}).get("frame_rate_hz", 60))
+
+
+def rig_of(rig: Rig | PathLike) -> Rig:
+    """A rig, or what is read from its file."""
+    return rig if isinstance(rig, Rig) else Rig.read(rig)
+
+
+@contextlib.contextmanager
+def file_of(rig: Rig | PathLike) -> Iterator[Path]:
+    """A rig's file; of an object one that lies there for so long."""
+    if not isinstance(rig, Rig):
+        yield Path(rig)
+        return
+    with tempfile.TemporaryDirectory(prefix="phare-rig-") as folder:
+        yield rig.write(Path(folder) / "rig.toml")
 
 
 def _text_of(problem: Any) -> str:

@@ -6,10 +6,14 @@ import json
 import math
 from typing import Any, Mapping
 
+import numpy as np
+
 from .errors import BadInput
 
 
 def _value(value: Any) -> str:
+    if isinstance(value, (np.generic, np.ndarray)):
+        value = value.tolist()
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, int):

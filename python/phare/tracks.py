@@ -21,15 +21,15 @@ from typing import Any, Callable
 import numpy as np
 import pandas as pd
 
-from .control.controller import Controller
+from .control.controller import Controller, ended, failed
 from .control.lamps import lamps_of
 from .control.messages import Given
 from .control.road_users import Lane, RoadUser
 from .control.sensors import Eyes, Pose, Sensors
-from .errors import BadInput
+from .errors import BadInput, LawFailed, told
 from .judge import LIMITS, judged, plot, receptors_of
 from .light_in_drive import Lit, lux_by_lamps
-from .rig import Rig
+from .rig import Rig, rig_of
 
 
 @dataclass(frozen=True)
@@ -91,20 +91,23 @@ class TrackTests:
         """Lux over range on each track with its limits, and the table."""
         plots = "".join(plot(one, TRACKS[track - 1].oncoming, f"{track}: {TRACKS[track - 1].words}") for track, one in self.moments.groupby("track"))
         table = self.rows.to_html(index=False, float_format=lambda value: f"{value:.1f}")
-        Path(file).write_text(
+        page = (
             f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{html.escape(title)}</title></head>'
             f'<body style="font:15px sans-serif;margin:2rem"><h1>{html.escape(title)}</h1><p>{self.failed} of {len(self.rows)} above the limit, '
             f"for {self.above_s:.2f} s of {self.measured_s:.2f} s. FMVSS 108 S9.4.1.6, Table XXI; receptors and the fixture's place are chosen "
             f"by eye, the course is computed: this compares, and approves nothing.</p>{plots}{table}</body></html>\n"
         )
+        with told(file):
+            Path(file).write_text(page)
 
 
-def track_tests(rig: Rig, law: Callable[[], Controller], *, sensors: Sensors | None = None, design: str | None = None) -> TrackTests:
+def track_tests(rig: Rig | str | Path, law: Callable[[], Controller], *, sensors: Sensors | None = None, design: str | None = None) -> TrackTests:
     """All eight, the stalk at low beam.
 
-    law: makes one that begins anew (a class of phare.laws, or a lambda), once a track. sensors: the camera; its road users are the
+    rig: a Rig, or a rig file. law: makes one that begins anew (a class of phare.laws, or a lambda), once a track. sensors: the camera; its road users are the
     fixtures. design: of the rig [its first]; a lamp aimed by its cut-off needs degrees instead, for nothing is drawn that could find it.
     """
+    rig = rig_of(rig)
     lit = rig.design(design) if design else rig.designs[0]
     for lamp in lit.lamps:
         if lamp.aim == "cut-off":
@@ -158,8 +161,10 @@ def _course(track: Track, lane: Lane, user: RoadUser, first_frame: int) -> pd.Da
 def _answers(law: Controller, car: pd.DataFrame, lamps: list[Any], eyes: Eyes) -> dict[int, Any]:
     """What the law says in each frame, given what link.py would give it."""
     answers: dict[int, Any] = {}
-    law.begin(lamps)
+    fault: LawFailed | None = None
+    number = 0
     try:
+        law.begin(lamps)
         for number, state in enumerate(car.itertuples()):
             yaw_rate = state.speed_mps * state.curvature_1pm
             given = Given(
@@ -170,8 +175,12 @@ def _answers(law: Controller, car: pd.DataFrame, lamps: list[Any], eyes: Eyes) -
             velocity = state.speed_mps * np.array([math.cos(state.yaw_rad), math.sin(state.yaw_rad), 0.0])
             eyes.fill(given, Pose(state.x_m, state.y_m, 0.0, 0.0, 0.0, state.yaw_rad), velocity)
             answers[state.frame_index] = law.step(given).to_proto(lamps)
-    finally:
-        law.end()
+    except (Exception, SystemExit) as wrong:
+        fault = failed(wrong, f"in frame {number}")
+    why = ended(law)
+    fault = fault or why
+    if fault is not None:
+        raise fault
     return answers
 
 

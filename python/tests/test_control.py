@@ -3,6 +3,7 @@
 import copy
 import math
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 
 import phare
 from phare.control import messages
+from phare.control.link import design_shown
 from phare.control.sensors import Eyes, Pose, set_angles
 from phare.laws import AutomaticHighBeam, BendingLight, DynamicLevelling, GlareFree
 
@@ -186,8 +188,8 @@ def test_a_segment_goes_dark_at_once_and_comes_back_slowly_after_the_hold():
         time_s = frame / 60
         given = phare.Given(frame, time_s, 1 / 60, 20.0, lamps=lamps, objects=seen, seen_time_s=time_s)
         course.append(law.step(given).lamps["left"].dimming_01[4])
-    assert course[0] == 0.0 and course[9] == 0.0 and course[9 + 20] == 0.0  # held for 0.1 s, and the camera's own time
-    first = next(i for i, share in enumerate(course) if i > 10 and share > 0)
+    first = next(i for i, share in enumerate(course) if share > 0)
+    assert first == 9 + 7  # told of last in frame 9, held for 0.1 s: up to frame 15
     assert course[first + 15] == pytest.approx(16 / 30) and course[-1] == 1.0
 
 
@@ -203,6 +205,19 @@ def test_the_delay_is_made_up_for_by_prediction():
     turning = copy.copy(given)
     turning.yaw_rate_radps = 0.2  # to the left: 2.3 deg in 0.2 s, so it is further to the right
     assert min(dark(glare_free(turning))) > min(with_it) + 15
+
+
+def test_a_camera_however_late_is_not_forgotten():
+    """What it has just told counts, of whatever moment; the hold begins where it tells no more."""
+    law, lamps = GlareFree(hold_s=0.5), [lamp()]
+    law.begin(lamps)
+    course = []
+    for frame in range(200):
+        time_s, late_s = frame / 60, 1.5
+        seen = [other(103.45)] if 90 <= frame <= 120 else []
+        given = phare.Given(frame, time_s, 1 / 60, 20.0, lamps=lamps, objects=seen, seen_time_s=time_s - late_s)
+        course.append(law.step(given).lamps["left"].dimming_01[4])
+    assert set(course[90:151]) == {0.0} and course[89] == 1.0 and course[151] > 0.0
 
 
 def test_bending_light_looks_along_the_map():
@@ -256,18 +271,30 @@ def test_laws_together_see_the_lamps_as_those_before_have_turned_them():
 @pytest.mark.parametrize("wrong", [
     {"fov_deg": float("nan")}, {"fov_deg": 361.0}, {"delay_s": -0.1}, {"miss_01": 1.5}, {"noise_angle_deg": float("nan")},
     {"range_m": {"white": 400.0}}, {"range_m": {"white": float("nan"), "red": 1.0, "none": 1.0}},
-    {"camera_m": (1.7, float("inf"), 1.3)},
+    {"camera_m": (1.7, float("inf"), 1.3)}, {"delay_s": "a"}, {"camera_m": ("a", 0.0, 1.0)}, {"seed": -1}, {"seed": 0.5},
 ])
 def test_sensors_that_cannot_be_are_refused(wrong):
     with pytest.raises(phare.BadInput, match=f"Sensors: {next(iter(wrong))}"):
         phare.Sensors(**wrong)
 
 
-def test_a_law_refuses_what_is_no_number():
-    for name in ("margin_deg", "hold_s", "rise_s", "on_above_kmh"):
-        for value in (float("nan"), float("inf"), -1.0):
-            with pytest.raises(phare.BadInput, match=f"GlareFree: {name}"):
-                phare.laws.GlareFree(**{name: value})
+@pytest.mark.parametrize("law, words, named", [
+    (law, {name: value}, name)
+    for law, names in (
+        (GlareFree, ("margin_deg", "hold_s", "rise_s", "on_above_kmh")), (BendingLight, ("ahead_s", "most_deg", "rate_degps", "outer_share", "from_kmh")),
+        (AutomaticHighBeam, ("on_above_kmh", "off_below_kmh", "on_after_s")), (DynamicLevelling, ("follow_s", "rate_degps", "most_deg")),
+    )
+    for name in names
+    for value in (math.nan, math.inf, -1.0)
+] + [(law, {"on_above_kmh": 10.0, "off_below_kmh": 50.0}, "off_below_kmh") for law in (GlareFree, AutomaticHighBeam)])
+def test_a_law_refuses_what_cannot_be(law, words, named):
+    with pytest.raises(phare.BadInput, match=f"{law.__name__}: {named} is"):
+        law(**words)
+
+
+def test_sensors_of_a_file_that_is_not_there_are_refused(tmp_path):
+    with pytest.raises(phare.BadInput, match="nope.toml: No such file"):
+        phare.Sensors(tmp_path / "nope.toml")
 
 
 @pytest.mark.parametrize("answer, why", [
@@ -280,6 +307,19 @@ def test_a_law_refuses_what_is_no_number():
 def test_an_answer_that_cannot_be_followed_is_refused(answer, why):
     with pytest.raises(phare.LawFailed, match=why):
         answer.to_proto([lamp()])
+
+
+def test_numbers_of_numpy_are_numbers_of_an_answer():
+    lights = {"left": phare.LampLight(dimming_01=np.float32(0.5))}
+    assert list(phare.Answer(lamps=lights).to_proto([lamp()]).lamps[0].dimming_01) == [0.5]
+    assert phare.Sensors(delay_s=np.float32(0.5)).delay_s == 0.5
+
+    class Half(phare.Controller):
+        def step(self, given):
+            return phare.Answer(lamps=lights)
+
+    both = phare.Together(Half(), Half()).step(phare.Given(lamps=[lamp()]))
+    assert both.lamps["left"].dimming_01 == [0.25] * 9
 
 
 # ---- in the loop
@@ -350,6 +390,51 @@ def test_a_law_knows_lamps_of_ones_own(moving, tmp_path, examples):
     assert own.figures["law"]["refused"] == 0 and own.figures["law"]["answers"] == 2
 
 
+class Knows(phare.Controller):
+    """The low beam's peak of the lamps it is given."""
+
+    def begin(self, lamps):
+        self.peak_cd = lamps[0].sources[0].peak_cd
+
+    def step(self, given):
+        self.design_index = given.design_index
+        return phare.Answer()
+
+
+def led_peak_cd():
+    return phare.Lamp.read(phare.generated_file("lamps/led_low_rht.ies")).peak_cd
+
+
+@pytest.mark.parametrize("settings, more, shown", [
+    ({}, [], None), ({"design": 1}, [], "1"), ({"view": "photo"}, ["--design", "led"], "led"), ({}, ["--design=led"], "led"),
+    ({}, ["--set", "design=1"], "1"), ({}, ["--set=design=cockpit", "--design", "led"], "cockpit"), ({}, ["--set", "view=photo"], None),
+])
+def test_the_design_that_a_picture_shows_is_read_from_the_words_of_a_drive(settings, more, shown):
+    assert design_shown(settings, more) == shown
+
+
+def test_a_law_is_given_the_design_of_the_rigs_desk(moving):
+    rig, law = phare.Rig.shipped(), Knows()
+    rig.more["desk"] = {**rig.more.get("desk", {}), "design": 1}
+    driven = phare.drive(rig, drive=moving, controller=law, frames=2, **SMALL)
+    assert law.peak_cd == led_peak_cd() and law.design_index == 1
+    assert driven.figures["law"]["refused"] == 0
+
+
+@pytest.mark.parametrize("words", [{"settings": {"design": 1}}, {"more": ["--design", "led"]}])
+def test_a_law_is_given_the_design_that_a_drive_names(moving, words):
+    law = Knows()
+    more = ["--audit-every", "0", *words.get("more", [])]
+    driven = phare.drive(drive=moving, controller=law, frames=2, size=(160, 90), more=more, settings=words.get("settings"))
+    assert law.peak_cd == led_peak_cd() and law.design_index == 1
+    assert driven.figures["law"]["refused"] == 0
+
+
+def test_sensors_without_a_law_are_refused(moving):
+    with pytest.raises(phare.BadInput, match="sensors: are of a control law"):
+        phare.drive(drive=moving, sensors=phare.Sensors(), frames=2)
+
+
 def test_a_law_that_raises_ends_the_drive_with_its_words(moving):
     class Broken(phare.Controller):
         def step(self, given):
@@ -360,6 +445,63 @@ def test_a_law_that_raises_ends_the_drive_with_its_words(moving):
     with pytest.raises(phare.LawFailed, match="after frame 1: ZeroDivisionError: by nothing") as told:
         phare.drive(drive=moving, controller=Broken(), **LOOP)
     assert isinstance(told.value.__cause__, ZeroDivisionError)
+
+
+@pytest.mark.parametrize("raised", [SystemExit(3), KeyboardInterrupt("by the law")])
+def test_a_law_that_leaves_ends_the_drive_with_its_words(moving, raised):
+    class Leaves(phare.Controller):
+        def step(self, given):
+            raise raised
+
+    with pytest.raises(phare.LawFailed, match=f"{type(raised).__name__}: {raised}"):
+        phare.drive(drive=moving, controller=Leaves(), timeout_s=60, **LOOP)
+
+
+def test_a_law_that_never_answers_is_left_when_time_is_up(moving):
+    class Silent(phare.Controller):
+        ended = False
+        leave = threading.Event()
+
+        def step(self, given):
+            self.leave.wait(120)
+            return phare.Answer()
+
+        def end(self):
+            self.ended = True
+
+    law = Silent()
+    with pytest.raises(phare.Failed, match="not done after 3 s"):
+        phare.drive(drive=moving, controller=law, timeout_s=3, **LOOP)
+    assert not law.ended  # it is at its step still
+    law.leave.set()
+
+
+@pytest.mark.parametrize("wrong, why", [(GlareFree, r"the class GlareFree: give an object of it, GlareFree\(\)"), (object(), "is object, and no phare.Controller")])
+def test_what_is_no_law_is_refused(wrong, why):
+    with pytest.raises(phare.BadInput, match=why):
+        phare.drive(controller=wrong, **LOOP)
+
+
+def test_a_law_that_cannot_end_is_told_and_hides_nothing(moving):
+    class Ends(phare.Controller):
+        def __init__(self, raises):
+            self.raises = raises
+
+        def step(self, given):
+            if self.raises:
+                raise ZeroDivisionError("first")
+            return phare.Answer()
+
+        def end(self):
+            raise ValueError("at last")
+
+    with pytest.raises(phare.LawFailed, match="at its end: ValueError: at last") as told:
+        phare.drive(drive=moving, controller=Ends(False), **LOOP)
+    assert isinstance(told.value.__cause__, ValueError)
+    with pytest.raises(phare.LawFailed, match="ZeroDivisionError: first"):
+        phare.drive(drive=moving, controller=Ends(True), **LOOP)
+    with pytest.raises(phare.BadInput, match="nope"):
+        phare.drive(drive=moving, controller=Ends(False), settings={"nope": 1}, **LOOP)
 
 
 def test_a_law_may_be_a_program_of_its_own(moving, tmp_path):

@@ -3,11 +3,12 @@
 import math
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import phare
 from phare.control.road_users import Lane
-from phare.detection import DARK_CDM2, HEIGHTS_M
+from phare.detection import DARK_CDM2, HEIGHTS_M, _seen
 
 from conftest import SMALL
 
@@ -33,6 +34,23 @@ def test_a_threshold_has_no_leap_and_falls_with_size_time_and_youth():
     assert all(math.isfinite(each) and each > 0.0 for each in levels)
     assert phare.threshold_cdm2(1.0, 20.0) < phare.threshold_cdm2(1.0, 10.0) < phare.threshold_cdm2(1.0, 10.0, age=70.0)
     assert phare.threshold_cdm2(1.0, 10.0, time_s=2.0) < phare.threshold_cdm2(1.0, 10.0)
+
+
+def test_a_darker_target_has_a_threshold_in_any_dark():
+    """Half that of a lighter one up to log10 La = -2.4 (0.00398 cd/m2), where other shares begin: 0.41 to 0.89 for 20 to 0.5 minutes."""
+    for la in np.geomspace(1e-5, 100.0, 80):
+        for alpha in (0.5, 1.0, 4.1, 7.0, 20.0, 62.0, 120.0):
+            share = phare.threshold_cdm2(la, alpha, lighter=False) / phare.threshold_cdm2(la, alpha)
+            assert 0.35 < share < 1.0 and (share == pytest.approx(0.5) if math.log10(la) <= -2.4 else True)
+    assert phare.threshold_cdm2(0.003, 10.0, lighter=False) == pytest.approx(0.5 * phare.threshold_cdm2(0.003, 10.0))
+    assert [phare.visibility_level(0.0, 0.002, alpha) < 0.0 for alpha in (4.1, 5.0, 31.0, 62.0)] == [True] * 4
+    assert phare.visibility_level(0.002, 0.002, 10.0) == 0.0
+
+
+@pytest.mark.parametrize("words", [{"target_cdm2": math.nan}, {"target_cdm2": -0.1}, {"background_cdm2": math.inf}, {"veil_cdm2": -1.0}])
+def test_luminances_that_cannot_be_are_refused(words):
+    with pytest.raises(phare.BadInput, match=f"{next(iter(words)).removesuffix('_cdm2')} = "):
+        phare.visibility_level(**{"target_cdm2": 1.0, "background_cdm2": 0.5, "alpha_min": 10.0, **words})
 
 
 @pytest.mark.parametrize("words", [{"adaptation_cdm2": 0.0}, {"alpha_min": -1.0}, {"time_s": math.nan}, {"age": 12.0}])
@@ -105,9 +123,30 @@ def test_luminance_is_that_of_the_lamps_by_hand(approach):
     assert moment.background_cdm2 >= DARK_CDM2
 
 
+def test_in_total_darkness_nobody_is_seen(approach):
+    """The stalk off, no lamp of others: target and background are as dark as each other."""
+    folder, users = approach
+    t = np.arange(0, 7.1, 0.02)
+    phare.write_drive(folder / "dark.pcap", phare.poses(t, x_m=20 + 20 * t, y_m=-1.625, yaw_rad=0.0, speed_mps=20.0, light="off"))
+    rig = phare.Rig.shipped()
+    rig.more["clock"]["frame_rate_hz"] = 10
+    report = phare.drive(rig, drive=folder / "dark.pcap", frames=70, **SMALL)
+    found = phare.detect_pedestrians(report, rig, users)
+    assert (found.moments.target_cdm2 == DARK_CDM2).all() and (found.moments.level == 0.0).all()
+    assert found.seen.distance_m.isna().all()
+
+
+def test_what_is_no_number_is_not_seen():
+    moments = pd.DataFrame({"user": 1, "time_s": [0.0, 1.0, 2.0], "distance_m": [60.0, 40.0, 20.0], "level": [3.0, math.nan, 3.0]})
+    assert _seen(moments, 1.0).distance_m.iloc[0] == 20.0
+    assert _seen(moments.assign(level=math.nan), 1.0).distance_m.isna().all()
+
+
 def test_a_drive_past_nobody_and_a_level_of_nothing(approach):
     folder, users = approach
     report, rig = driven(folder, "low")
     assert phare.detect_pedestrians(report, rig, []).seen.empty
-    with pytest.raises(phare.BadInput, match="level = 0"):
-        phare.detect_pedestrians(report, rig, users, level=0.0)
+    for words in ({"level": 0.0}, {"level": math.nan}, {"level": math.inf}, {"age": 12.0}, *(
+            {name: value} for name in ("reflectance", "road_reflectance") for value in (math.nan, -1.0, 20.0))):
+        with pytest.raises(phare.BadInput, match=f"^{next(iter(words))} = "):
+            phare.detect_pedestrians(report, rig, users, **words)

@@ -4,14 +4,15 @@ import random
 import shutil
 import subprocess
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 
 import phare
+from phare import drive_file, wire
 from phare import phare_pb2 as pb
-from phare import wire
 
 from conftest import SMALL
 
@@ -60,6 +61,58 @@ def test_a_folder_that_holds_a_drive_is_not_written_over(report):
         phare.drive(frames=1, out=report.folder)
 
 
+def contents(folder: Path) -> dict[str, bytes]:
+    return {file.name: file.read_bytes() for file in folder.iterdir() if file.is_file()}
+
+
+def test_a_drive_in_the_place_of_another_has_nothing_of_it(tmp_path):
+    class Straight(phare.Controller):
+        def step(self, given):
+            return phare.Answer()
+
+    words = dict(out=tmp_path / "out", frames=2, overwrite=True, **SMALL)
+    first = phare.drive(phare.Rig.shipped(), controller=Straight(), **words)
+    assert len(first.law_steps) == len(first.car) == 2
+    second = phare.drive(record=False, **words)
+    for table in ("car", "law_steps"):
+        with pytest.raises(phare.BadInput, match="was not recorded|no control law led"):
+            getattr(second, table)
+    assert not {"drive.pcap", "law.csv", "driven.toml"} & {file.name for file in second.folder.iterdir()}
+    assert not second.led_by_law
+    # By the command line it is this package that does not know what goes.
+    third = phare.drive(controller=Straight(), **words)
+    phare.programs.run(["drive", "--headless", "--lockstep", "--overwrite", "--frames", "1", "--size", "64x36", "--out", third.folder])
+    for table in ("car", "law_steps"):
+        with pytest.raises(phare.BadInput, match="was not recorded|no control law led"):
+            getattr(phare.Report(third.folder), table)
+
+
+def test_a_drive_that_cannot_begin_leaves_the_other_as_it_is(tmp_path):
+    words = dict(out=tmp_path / "out", frames=1, overwrite=True, **SMALL)
+    kept = phare.drive(phare.Rig.shipped(), **words)
+    before = contents(kept.folder)
+    for wrong in ({"settings": {"nope": 1}}, {"drive": tmp_path / "none.pcap"}, {"level": "none"}, {"controller": phare.laws.GlareFree},
+                  {"controller": phare.laws.GlareFree(), "traffic": tmp_path / "none.toml"}):
+        with pytest.raises(phare.BadInput):
+            phare.drive(phare.Rig.shipped("matrix"), **{**words, **wrong})
+        assert contents(kept.folder) == before, wrong
+    with pytest.raises(phare.BadInput):
+        phare.drive(phare.Rig.shipped("matrix"), settings={"nope": 1}, out=tmp_path / "new")
+    assert contents(tmp_path / "new") == {}
+    again = phare.drive(kept.folder / "driven.toml", drive=kept.folder / "drive.pcap", record=False, **words)  # by files of its own
+    assert {"driven.toml", "drive.pcap"} <= contents(again.folder).keys()
+
+
+def test_the_port_may_stand_among_further_words(tmp_path):
+    base = phare.free_ports()
+    for more in (["--port-base", str(base)], [f"--port-base={base}"]):
+        driven = phare.drive(frames=1, size=(64, 36), more=["--audit-every", "0", *more])
+        assert driven.command.count("--port-base") == 1 and driven.command[driven.command.index("--port-base") + 1] == str(base)
+    for wrong in (dict(more=["--port-base"]), dict(more=["--port-base", "x"]), dict(more=["--port-base", "47000"], port_base=48000)):
+        with pytest.raises(phare.BadInput, match="port-base"):
+            phare.drive(frames=1, **wrong)
+
+
 def test_errors_are_the_programs_own_words(tmp_path):
     with pytest.raises(phare.BadInput, match="^/nowhere.toml: no such file$"):
         phare.drive("/nowhere.toml", frames=1, out=tmp_path)
@@ -71,6 +124,12 @@ def test_errors_are_the_programs_own_words(tmp_path):
             phare.drive(frames=1)
     with pytest.raises(phare.BadInput, match="nothing.*report.json"):
         phare.Report(tmp_path / "nothing")
+    (tmp_path / "file").write_text("")
+    drive = phare.poses([0, 1], x_m=0, y_m=0)
+    for wrong in (lambda: phare.drive(out=tmp_path / "file"), lambda: phare.read_drive(tmp_path / "none.pcap"), lambda: phare.read_drive(tmp_path),
+                  lambda: phare.write_drive(tmp_path / "none" / "x", drive), lambda: phare.Rig.shipped().write(tmp_path / "none" / "x")):
+        with pytest.raises(phare.BadInput, match=f"^{tmp_path}.*: (File exists|No such file|Is a directory)"):
+            wrong()
 
 
 def test_a_drive_that_takes_too_long_is_ended(tmp_path):
@@ -120,11 +179,33 @@ def test_poses_refuse_what_is_no_drive():
     for times in ([0.0], [0.0, 0.0], [-1.0, 1.0], [0.0, float("nan")]):
         with pytest.raises(phare.BadInput, match="time_s"):
             phare.poses(times, x_m=0, y_m=0)
-    with pytest.raises(phare.BadInput, match="light"):
-        phare.poses([0, 1], x_m=0, y_m=0, light="bright")
+    for times, why in (([[0, 1]], "one list"), ("abc", "time_s: "), ([0, 5e9], "a drive file ends")):
+        with pytest.raises(phare.BadInput, match=why):
+            phare.poses(times, x_m=0, y_m=0)
+    for light in ("bright", None, [["low"], "low"]):
+        with pytest.raises(phare.BadInput, match="light"):
+            phare.poses([0, 1], x_m=0, y_m=0, light=light)
+    with pytest.raises(phare.BadInput, match="start_id = -1"):
+        phare.poses([0, 1], x_m=0, y_m=0, start_id=-1)
     for wrong in (float("nan"), [0.0, float("inf")], [0, 1, 2], "ahead"):
         with pytest.raises(phare.BadInput, match="poses: yaw_rad"):
             phare.poses([0, 1], x_m=0, y_m=0, yaw_rad=wrong)
+
+
+def test_a_drive_file_refuses_what_it_cannot_hold(tmp_path):
+    late = pb.Datagram(protocol_version=1, sender=pb.SENDER_DYNAMICS, sim_time_ns=5_000_000_000_000_000_000)
+    for datagrams, more, why in (([late], {}, "behind 4294967295 s"), ([7], {}, "7 is no datagram"), ([], {"port_base": 70000}, "port_base = 70000")):
+        with pytest.raises(phare.BadInput, match=why):
+            phare.write_drive(tmp_path / "x.pcap", datagrams, **more)
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_list_of_a_message_is_known_by_every_protobuf():
+    """Releases up to 6 have `label`, 7 has is_repeated alone."""
+    for is_list in (False, True):
+        new, old = SimpleNamespace(is_repeated=is_list), SimpleNamespace(label=3 if is_list else 1, LABEL_REPEATED=3)
+        assert drive_file._is_list(new) is drive_file._is_list(old) is is_list
+    assert [of.name for of in pb.LawAnswer.DESCRIPTOR.fields if drive_file._is_list(of)] == ["lamps"]
 
 
 def test_the_seal_is_that_of_the_programs():

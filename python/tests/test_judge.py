@@ -8,10 +8,10 @@ import pytest
 
 import phare
 from phare.control.road_users import Lane
-from phare.judge import judge_glare, judged, limit_lx
+from phare.judge import judge_glare, judged, limit_lx, receptors_of
 from phare.laws import GlareFree
 
-from conftest import SMALL
+from conftest import SMALL, straight_lane
 
 
 def test_the_limits_are_those_of_the_table():
@@ -127,6 +127,95 @@ def test_the_share_of_time_in_glare():
     assert brighter.share_01 == pytest.approx(expected, abs=3 * 0.4 / 70)
 
 
+def test_drivers_and_riders_are_judged_by_what_they_have(tmp_path):
+    """Two places each: it comes towards us 60 m ahead, it goes before us 60 m ahead."""
+    car = pd.DataFrame(dict(frame_index=[0], x_m=0.0, y_m=0.0, z_m=0.0, roll_rad=0.0, pitch_rad=0.0, yaw_rad=0.0), index=[0.0])
+    found = {}
+    for kind in ("car", "lorry", "motorcycle", "bicycle", "pedestrian", "deer"):
+        users = [phare.RoadUser(kind, direction, 60.0, lights=kind not in ("pedestrian", "deer")) for direction in ("oncoming", "same")]
+        rows = receptors_of(car, straight_lane(tmp_path), users)
+        found[kind] = [int((rows.user == user).sum()) for user in (1, 2)]
+    assert found == {"car": [1, 3], "lorry": [1, 3], "motorcycle": [1, 2], "bicycle": [1, 0], "pedestrian": [0, 0], "deer": [0, 0]}
+    rider = receptors_of(car, straight_lane(tmp_path), [phare.RoadUser("motorcycle", "oncoming", 60.0)])
+    assert rider.y[0] == 0.0 and rider.z[0] == 1.35
+
+
+@pytest.fixture(scope="module")
+def by_led(tmp_path_factory, moving):
+    """The demo's second design, shown by a setting, whatever the cockpit has."""
+    return phare.drive(drive=moving, frames=3, settings={"design": 1}, out=tmp_path_factory.mktemp("led") / "out", **SMALL)
+
+
+USERS = [phare.RoadUser(start_s_m=90.0, speed_mps=0.0, offset_m=3.5)]
+
+
+def test_the_design_that_was_driven_is_judged(by_led, moving):
+    rig = phare.Rig.shipped()
+    lux = {name: judge_glare(by_led, rig, USERS, name).moments.lx.max() for name in (None, "halogen", "led")}
+    assert lux[None] == lux["led"] != lux["halogen"]
+    named = phare.drive(rig, drive=moving, frames=3, more=["--design", "led", "--audit-every", "0"], size=(160, 90))
+    assert judge_glare(named, rig, USERS).moments.lx.max() == lux["led"]
+    seen = [phare.RoadUser(kind="pedestrian", direction="standing", start_s_m=70.0, offset_m=-1.6)]
+    target = {name: phare.detect_pedestrians(by_led, rig, seen, name).moments.target_cdm2.max() for name in (None, "halogen", "led")}
+    assert target[None] == target["led"] != target["halogen"]
+
+
+def test_each_frame_is_judged_by_its_own_design(by_led):
+    """A drive whose first picture is of the one and the others of the other, as a change by the cockpit has it."""
+    rig, rows = phare.Rig.shipped(), pd.read_csv(by_led.folder / "drive.csv")
+    rows.loc[0, "design"] = "halogen"
+    both = phare.Report(by_led.folder)
+    both.raw["processes"]["visual-0"]["designs"].append({"index": 0, "name": "halogen", "lit_s": 0.02, "in_the_stills": False})
+    file = by_led.folder / "drive.csv"
+    kept = file.read_text()
+    rows.to_csv(file, index=False)
+    try:
+        moments = judge_glare(both, rig, USERS).moments
+    finally:
+        file.write_text(kept)
+    one, other = (judge_glare(by_led, rig, USERS, name).moments.lx for name in ("halogen", "led"))
+    assert list(moments.lx) == [one[0], other[1], other[2]]
+
+
+def test_another_rig_than_was_driven_is_refused(by_led, tmp_path):
+    def refused(rig, why, design=None):
+        with pytest.raises(phare.BadInput, match=why):
+            judge_glare(by_led, rig, USERS, design)
+
+    refused(phare.Rig.shipped("matrix"), "no design led: the rig has")
+    scaled, moved, fewer = (phare.Rig.shipped() for _ in range(3))
+    scaled.design("led").lamps[0].sources[0].scale = 2.0
+    refused(scaled, "was driven with headlamp left: low by led_low_rht.ies, scale 1; the rig has .* scale 2")
+    fewer.design("led").lamps.pop()
+    refused(fewer, "design led was driven with 6 sources, the rig has 4")
+    file = tmp_path / "led_low_rht.ies"
+    file.write_bytes(phare.generated_file("lamps/led_low_rht.ies").read_bytes() + b"\r\n")
+    moved.design("led").lamps[0].sources[0].file = str(file)
+    refused(moved, "led_low_rht.ies: is not what was driven as headlamp left of design led")
+    town = phare.Rig.shipped()
+    town.scene = "generated/scenes/town.glb"
+    refused(town, "was driven in the scene country_road.glb, the rig has town.glb")
+
+
+def test_a_law_is_judged_by_the_design_it_led(moving):
+    class Straight(phare.Controller):
+        def step(self, given):
+            return phare.Answer()
+
+    rig = phare.Rig.shipped()
+    report = phare.drive(rig, drive=moving, controller=Straight(), frames=2, **SMALL)
+    assert judge_glare(report, rig, USERS, "halogen").moments.lx.max() == judge_glare(report, rig, USERS).moments.lx.max()
+    with pytest.raises(phare.BadInput, match="design led: the control law led halogen"):
+        judge_glare(report, rig, USERS, "led")
+
+
 def test_nobody_there_is_no_glare(report):
     glare = judge_glare(report, phare.Rig.shipped(), [])
     assert glare.above_s == glare.judged_s == 0.0 and glare.moments.empty and isinstance(glare.bins, pd.DataFrame)
+    assert list(glare.un.columns) == ["receptor", "at_m", "from_deg", "to_deg", "most_cd", "limit_cd", "passed"]
+    by_file = judge_glare(report, phare.shipped_file("rigs/country_road.toml"), [])
+    assert by_file.bins.equals(glare.bins)
+    with pytest.raises(phare.BadInput, match="none.toml: No such file"):
+        judge_glare(report, "none.toml", [])
+    with pytest.raises(phare.BadInput, match="/none/glare.html: No such file"):
+        glare.write_page("/none/glare.html")

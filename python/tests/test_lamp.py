@@ -63,6 +63,41 @@ def test_compare_and_hspr(lamp, examples):
     assert rated.rating == rated.raw["class"] and rated.points > 0 and len(rated.rows) > 5
 
 
+def test_each_lamp_is_asked_for_as_it_was_read(lamp, tmp_path):
+    mirrored = phare.Lamp.read(lamp.file, mirror=True)
+    by_command = phare.programs.run_json(["lamp", "compare", lamp.file, lamp.file, "--mirror-b", "--no-align"])
+    for one, other in ((lamp, mirrored), (mirrored, lamp)):
+        both = one.compare(other, align=False)
+        assert both.raw["a"] == both.raw["b"] == str(lamp.file)
+        # LM-63 keeps the candela to 1e-14 of the peak.
+        assert both.correlation == pytest.approx(by_command["correlation"], abs=1e-9) and both.correlation < 0.95
+        assert both.mean_absolute_difference_cd == pytest.approx(by_command["mean_absolute_difference_cd"], rel=1e-9)
+    assert mirrored.compare(mirrored).mean_absolute_difference_cd == 0
+    with pytest.raises(phare.BadInput, match="^low_beam.ies: is for left-hand traffic"):
+        lamp.hspr(mirrored)
+    turned, plain = tmp_path / "turned.ldt", tmp_path / "plain.ldt"
+    phare.programs.run(["lamp", "convert", lamp.file, "--out", turned, "--out-axis", "gamma90"])
+    phare.programs.run(["lamp", "convert", lamp.file, "--out", plain])
+    turned = phare.Lamp.read(turned, axis="gamma90")
+    assert lamp.compare(turned).correlation > 0.9999 < turned.compare(lamp).correlation
+    with pytest.raises(phare.BadInput, match="no pair"):
+        lamp.check("r123-passing-c", right=mirrored)
+    alike = [one.check("r123-passing-c", right=other) for one, other in ((lamp, lamp.file), (lamp, turned), (turned, lamp))]
+    assert len({verdict.failed for verdict in alike}) == 1
+    with pytest.raises(phare.BadInput, match="plain.ldt with gamma0: .* different axes"):
+        turned.compare(plain)
+
+
+def test_lamps_may_be_files_and_nonsense_is_refused(lamp, examples):
+    assert lamp.compare(lamp.file).correlation == 1.0
+    assert lamp.hspr(high=[examples / "high_beam.ies"] * 2).raw["score"] == lamp.hspr(lamp.file, high=(str(examples / "high_beam.ies"),) * 2).raw["score"]
+    with pytest.raises(phare.BadInput, match="high is two lamps"):
+        lamp.hspr(high=(lamp,))
+    for h, v in (([1, 2], [1, 2, 3]), ("a", 0)):
+        with pytest.raises(phare.BadInput, match="intensity: "):
+            lamp.intensity(h, v)
+
+
 def test_a_bad_file_says_place_and_reason(tmp_path):
     bad = tmp_path / "bad.ies"
     bad.write_text("IESNA:LM-63-2002\nTILT=NONE\n1 -1\n")

@@ -45,6 +45,29 @@ def test_a_rig_stands_for_its_lamps():
     assert both[0] > low[0] > 0
 
 
+def test_a_lamp_is_mounted_as_it_was_read(examples, tmp_path):
+    file, wall = examples / "low_beam.ies", [[25, -2, 0, -1, 0, 0], [25, 2, 0, -1, 0, 0]]
+    plain, mirrored = (
+        phare.measure(phare.Mounted(phare.Lamp.read(file, mirror=mirror), 3.45, 0, 0.66), wall, reference=True) for mirror in (False, True)
+    )
+    assert plain[0] != plain[1] and mirrored.tolist() == plain[::-1].tolist()
+    phare.programs.run(["lamp", "convert", file, "--out", tmp_path / "low.ldt", "--out-axis", "gamma90"])
+    turned = phare.Lamp.read(tmp_path / "low.ldt", axis="gamma90", c0_deg=0.0)
+    # EULUMDAT has few digits: 1e-3 of the peak is what phare lamp convert promises of it.
+    lux = phare.measure(phare.Mounted(turned, 3.45, 0, 0.66), wall, reference=True)
+    np.testing.assert_allclose(lux, plain, rtol=0, atol=1e-3 * turned.peak_cd / 21.55**2)
+    words = phare.Mounted(phare.Lamp("a.xml", {}, {"emitter": 2, "lamp_set": 3, "distance_m": 25.0}), 0, 0, 1).words()
+    assert words == "a.xml,x=0.0,y=0.0,z=1.0,emitter=2,lamp_set=3,distance_m=25.0"
+
+
+def test_a_rig_as_an_object_is_measured_as_its_file():
+    file, points = phare.shipped_file("rigs/country_road.toml"), [[40, 0, 0], [60, -1, 0]]
+    rig = phare.Rig.read(file)
+    assert phare.measure(rig, points, design="led").tolist() == phare.measure(file, points, design="led").tolist()
+    rig.designs[0].lamps[0].position_m[2] = 0.9
+    assert phare.measure(rig, points)[0] != phare.measure(file, points)[0]
+
+
 def test_a_scene_has_shadows(examples, tmp_path):
     # A square of 2 m upright 10 m ahead, from the ground: glTF has y up, and its -z is the left.
     corners = np.array([[10, 0, -1], [10, 0, 1], [10, 2, 1], [10, 2, -1]], "<f4").tobytes()
@@ -70,6 +93,16 @@ def test_what_cannot_be_measured_is_refused(examples):
             phare.measure(lamp, points)
     with pytest.raises(phare.BadInput, match="no lamp"):
         phare.measure([], [[1, 2, 3]])
+    with pytest.raises(phare.BadInput, match="has no place: give Mounted"):
+        phare.measure(phare.Lamp.read(examples / "low_beam.ies"), [[1, 2, 3]])
+    with pytest.raises(phare.BadInput, match="Mounted: x is 'a'"):
+        phare.measure(phare.Mounted(examples / "low_beam.ies", "a", 0, 1), [[1, 2, 3]])
     with pytest.raises(phare.BadInput, match="nix.ies"):
         phare.measure("nix.ies,x=0,y=0,z=1", [[1, 2, 3]])
     assert phare.measure(phare.Mounted(examples / "low_beam.ies", 0, 0, 1), np.zeros((0, 3))).shape == (0,)
+
+
+@pytest.mark.parametrize("words", [{"design": "led"}, {"beams": "nonsense"}, {"beams": ["low"]}])
+def test_beams_and_design_are_of_a_rig(examples, words):
+    with pytest.raises(phare.BadInput, match=f"measure: {next(iter(words))} = .*: are of a rig file"):
+        phare.measure(phare.Mounted(examples / "low_beam.ies", 3.45, 0.62, 0.66), [[40, 0, 0]], **words)

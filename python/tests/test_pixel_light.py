@@ -5,10 +5,12 @@ import time
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import phare
 from phare.control import messages
+from phare.light_in_drive import design_of_frames, lux_in_drive
 
 from conftest import SMALL
 from test_control import lamp
@@ -54,6 +56,66 @@ def test_a_law_gives_a_pixel_light_its_pictures(moving, tmp_path):
     assert drives[0].picture_hash == drives[1].picture_hash != drives[2].picture_hash
     assert drives[0].frame(6).tobytes() != drives[2].frame(6).tobytes()
     assert drives[0].figures["law"]["refused"] == 0
+
+
+def with_pixels(folder, shares, function="low"):
+    """The demo's rig and its halogen headlamps with a pixel light besides, turned, whose picture is 64 x 32."""
+    (folder / "full.csv").write_text("h_deg,v_deg,intensity_cd\n" + "".join(f"{h},{v},60000\n" for v in (-8, 2) for h in (-10, 10)))
+    picture = folder / "picture.pgm"
+    picture.write_bytes(b"P5 64 32 255\n" + shares.astype(np.uint8).tobytes())
+    rig = phare.Rig.shipped("country_road")
+    more = {"pixels": str(picture)}
+    rig.designs[0].lamps[0].sources.append(phare.Source(function, str(folder / "full.csv"), yaw_deg=2.0, pitch_deg=-0.5, more=more))
+    return rig
+
+
+def left_half(rows=32, columns=64):
+    shares = np.zeros((rows, columns))
+    shares[:, : columns // 2] = 255
+    return shares
+
+
+def test_judges_see_the_picture_of_a_pixel_light(moving, tmp_path):
+    """Lux of the rig by the judge, by `phare measure --rig` and by the picture's own probe (float32)."""
+    rig = with_pixels(tmp_path, left_half())
+    points = [[40.0, y, 0.5, -1.0, 0.0, 0.0] for y in (4.0, 0.5, -2.6)]
+    probes = {"probes": "; ".join(f"car {x:g} {y:g} {z:g} -1 0 0" for x, y, z, *_ in points)}
+    report = phare.drive(rig, drive=moving, settings=probes, frames=2, size=(64, 36), more=["--audit-every", "0"])
+    rows = pd.DataFrame([[1, *point] for point in points], columns=["frame", "x", "y", "z", "nx", "ny", "nz"])
+    lux = lux_in_drive(rows, report, rig, design_of_frames(report, rig))
+    assert lux == pytest.approx(phare.measure(rig.write(tmp_path / "rig.toml"), points, reference=True), rel=1e-9)
+    probed = pd.read_csv(report.folder / "probes.csv").iloc[-1]
+    assert [probed[f"probe{i}_lx"] for i in (1, 2, 3)] == pytest.approx(list(lux), rel=1e-4)
+    plain = phare.measure(phare.shipped_file("rigs/country_road.toml"), points, reference=True)
+    assert lux[0] > plain[0] + 10.0 and lux[2] == pytest.approx(plain[2], rel=1e-9)  # lit to the left, dark to the right
+
+
+def test_a_dark_pixel_light_changes_no_track_test(tmp_path):
+    with_it, without = with_pixels(tmp_path, np.zeros((32, 64))), phare.Rig.shipped("country_road")
+    one, other = (phare.track_tests(rig, phare.laws.AutomaticHighBeam) for rig in (with_it, without))
+    assert list(one.rows.most_lx) == list(other.rows.most_lx)
+
+
+def test_pictures_of_a_law_are_refused_by_the_judges(moving, tmp_path):
+    """What they were is gone when the drive is judged. Where that source is dark nothing is asked of them."""
+    frame = tmp_path / "frame.pgm"
+    frame.write_bytes(b"P5 64 32 255\n" + left_half().astype(np.uint8).tobytes())
+
+    class Gives(phare.Controller):
+        def step(self, given):
+            return phare.Answer(lamps={"headlamp left": phare.LampLight(frame=str(frame) if given.frame_index == 0 else "")})
+
+    users = [phare.RoadUser(start_s_m=90.0, speed_mps=0.0, offset_m=3.5)]
+    rig = with_pixels(tmp_path, left_half())
+    report = phare.drive(rig, drive=moving, controller=Gives(), frames=3, **SMALL)
+    for judge in (phare.judge_glare, phare.detect_pedestrians):
+        of_it = users if judge is phare.judge_glare else [phare.RoadUser(kind="pedestrian", direction="standing", start_s_m=60.0)]
+        with pytest.raises(phare.BadInput, match="lamp 'headlamp left': the control law gave its pixel light pictures"):
+            judge(report, rig, of_it)
+    with pytest.raises(phare.BadInput, match="gave its pixel light pictures"):
+        phare.track_tests(rig, Gives)
+    of_high = with_pixels(tmp_path, left_half(), "high")
+    assert phare.track_tests(of_high, Gives).measured_s > 0.0
 
 
 # ---- names of pictures
@@ -109,6 +171,24 @@ def test_a_module_gives_no_more_power_than_it_has():
     answer = limits.step(phare.Given(lamps=lamps))
     assert answer.lamps["left"].dimming_01 == [1.0, 1.0, 0.0, 0.5, 0, 0, 0, 0, 0]  # 1.5 W: nothing to limit
     assert limits.power_of["left"] == pytest.approx(1.5)
+
+
+def test_a_module_that_is_switched_off_stays_cold():
+    """A law's beam counts while the stalk is at low or high; the flash has high beam whatever the stalk."""
+
+    class Full(phare.Controller):
+        def step(self, given):
+            return phare.Answer(light="high")
+
+    lamps = [lamp("left", columns=8)]
+    asked = {("off", False): 0.0, ("position", False): 0.0, ("low", False): 8.0, ("high", False): 8.0, ("off", True): 8.0}
+    for (stalk, flash), watts in asked.items():
+        limits = phare.laws.ModuleLimits(Full(), k_per_w=4.0)
+        limits.begin(lamps)
+        for frame in range(60):
+            limits.step(phare.Given(frame_index=frame, step_s=1.0, lamps=lamps, light=stalk, flash=flash))
+        assert limits.power_of["left"] == watts, stalk
+        assert (limits.temperature_of["left"] > 41.0) == (watts > 0.0)
 
 
 def test_a_module_settles_where_heat_and_light_balance():
@@ -168,6 +248,25 @@ def test_lane_lines_lie_on_the_road_where_the_lane_is():
     assert written.startswith(b"P5 1664 800 255\n") and len(written) == 16 + 1664 * 800
     big.end()
     assert not Path(answer.lamps["headlamp left"].frame).exists()
+
+
+RASTER = dict(columns=8, rows=4, h_deg=(-10, 10), v_deg=(-8, 2))
+
+
+@pytest.mark.parametrize("words", [
+    {"line_01": 2.0}, {"line_01": math.nan}, {"road_01": -0.1}, {"above_01": 1.5}, {"from_m": math.nan}, {"to_m": -1.0}, {"half_width_m": math.inf},
+    {"line_m": -0.2}, {"up_deg": math.nan},
+])
+def test_a_projection_that_cannot_be_is_refused(words):
+    for law in (phare.laws.LaneProjection, phare.laws.SymbolProjection):
+        with pytest.raises(phare.BadInput, match=f"{law.__name__}: {next(iter(words))} is"):
+            law(**RASTER, **words)
+
+
+def test_a_projection_by_a_lamp_that_is_not_there_is_refused():
+    law = phare.laws.LaneProjection("haedlamp left", **RASTER)
+    with pytest.raises(phare.BadInput, match="no lamp 'haedlamp left': the design has headlamp left"):
+        law.begin([lamp("headlamp left")])
 
 
 def test_a_symbol_lies_on_the_road_in_its_lane():

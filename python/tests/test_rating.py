@@ -110,11 +110,17 @@ def test_excess_glare_is_marginal_at_best():
     ("[60, 9]", "[40, 9]", "do not grow"), ("= 0.5\n[[", "= -1\n[[", "below 0"), ("allowed_s = 0\n", "", "expected the keys"),
     ("01 = 0.5", "01 = 1.5", "0 to 1"), ("credit_share", "credit", "0 to 1"), ("sharp left", "straight", "straight stands there twice"),
     ("target_m = 50", "target_m = inf", "not finite"), ("target_m", "goal_m", "expected the keys"), ("[[glare]]", "[[glow]]", "nothing else"),
+    ('"straight"', '["straight"]', "expected words"), ('"low"', "{ a = 1 }", "expected words"), ('"right"', "3", "expected words"),
 ])
 def test_limits_that_cannot_be_used_are_refused(tmp_path, old, new, said):
     (tmp_path / "limits.toml").write_text(LIMITS.replace(old, new))
     with pytest.raises(phare.BadInput, match=said):
         read_limits(tmp_path / "limits.toml")
+
+
+def test_a_rig_as_an_object_is_rated_as_its_file(rig):
+    one, other = phare.rate_iihs(rig), phare.rate_iihs(phare.Rig.read(rig))
+    assert one.visibility.equals(other.visibility) and one.glare.equals(other.glare)
 
 
 def test_the_command_says_what_it_is_not(rig, tmp_path):

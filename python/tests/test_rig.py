@@ -4,6 +4,7 @@ import copy
 import math
 import tomllib
 
+import numpy as np
 import pytest
 
 import phare
@@ -70,6 +71,32 @@ def test_the_road_users_of_a_rig_are_found_from_elsewhere(tmp_path):
     again = phare.Rig.read(tmp_path / "far" / "rig.toml")
     assert again.more["traffic"] == str(tmp_path / "far" / "others.toml")
     assert phare.Rig.read(again.write(tmp_path / "rig.toml")).problems() == []
+
+
+def test_street_lamps_of_a_rig_are_found_from_elsewhere(tmp_path):
+    (tmp_path / "far").mkdir()
+    lamps = tmp_path / "far" / "lamps.toml"
+    lamps.write_bytes(phare.generated_file("scenes/town_lamps.toml").read_bytes())
+    rig = phare.Rig.shipped("town")
+    rig.more["street_lamps"] = "lamps.toml"
+    rig.write(tmp_path / "far" / "rig.toml")
+    again = phare.Rig.read(tmp_path / "far" / "rig.toml")
+    assert again.more["street_lamps"] == str(lamps) and str(lamps) in again.files()
+    assert not [problem for problem in again.problems() if "no such file" in problem]
+
+
+def test_a_byte_order_mark_is_read_over_as_by_the_programs(tmp_path):
+    (tmp_path / "bom.toml").write_bytes(b"\xef\xbb\xbf" + phare.shipped_file("rigs/matrix.toml").read_bytes())
+    assert phare.Rig.read(tmp_path / "bom.toml").name == phare.Rig.shipped("matrix").name
+
+
+def test_numbers_of_numpy_are_numbers(tmp_path):
+    rig, plain = phare.Rig.shipped(), phare.Rig.shipped()
+    rig.designs[0].lamps[0].position_m = np.array([3.5, 0.625, 0.75])
+    rig.designs[0].lamps[0].sources[0].scale = np.float32(0.5)
+    plain.designs[0].lamps[0].position_m, plain.designs[0].lamps[0].sources[0].scale = [3.5, 0.625, 0.75], 0.5
+    assert phare.Rig.read(rig.write(tmp_path / "rig.toml")) == plain
+    assert toml_out.dumps({"a": np.int64(3), "b": np.bool_(True), "c": np.array([[1, 2]])}) == "a = 3\nb = true\nc = [[1, 2]]\n"
 
 
 def test_a_matrix_in_one_file_is_a_source_for_each_segment(tmp_path):

@@ -21,6 +21,8 @@ def test_a_file_of_road_users_is_read(tmp_path):
     lane = straight_lane(tmp_path)
     assert (lorry.kind, lorry.speed_mps, lorry.pose(lane, 2.0).s_m, lorry.height_m) == ("lorry", 20.0, 140.0, 3.6)
     assert walker.pose(lane, 9.0).s_m == 50.0 and not walker.lights
+    for name in ("low.ies", "high.ies", "tail.ies", "led.csv"):
+        (tmp_path / name).write_text("")
     file.write_text('[[road_user]]\nlights = "high"\nlow_beam = "low.ies"\nhigh_beam = "high.ies"\n'
                     'tail_lamp = { file = "tail.ies", colour_temperature_k = 2000 }\nthird_brake_lamp = { spectrum = "led.csv" }\n'
                     '[[road_user]]\nlights = "off"\n[[road_user]]\nlights = false\n')
@@ -40,6 +42,10 @@ def test_a_file_of_road_users_is_read(tmp_path):
     ("speeds = [[0, 1001]]", "speeds: a speed is outside"), ("speeds = [[0, 1]]\nspeed_kmh = 3", "speeds: there is speed_kmh, too"),
     ('speeds = [[0, 1]]\ndirection = "standing"', "speeds: who is standing has none"), ("brake = 1", "expected a bool"),
     ('class = "bicycle"\nbrake = true', "brake: a bicycle has no brake lamps"), ('path = ""', "path: expected the name"),
+    ('class = "bicycle"\nlights = "high"', "lights: a bicycle has no high beam"), ('class = "bicycle"\nhigh_beam = "x"', "high_beam: a bicycle has no high beam"),
+    ('class = "motorcycle"\nthird_brake_lamp = "x"', "a motorcycle has no third brake lamp"), ('class = "pedestrian"\nlow_beam = "x"', "a pedestrian has no headlamps"),
+    ('low_beam = "none.ies"', "low_beam: .*none.ies: no such file"), ("tail_lamp = { colour_temperature_k = 100 }", "= 100: expected 1667 to 25000"),
+    ("tail_lamp = { chromaticity_xy = [0.9, 0.9] }", r"x \+ y <= 1"), ("tail_lamp = { chromaticity_xy = [0.3, 0.3], colour_temperature_k = 2000 }", "one of"),
     ('path = "none.csv"', "path: .*none.csv: cannot be read"), ('path = "p.csv"\nspeed_kmh = 3', "speed_kmh: there is a path, too"),
 ])
 def test_what_is_wrong_with_road_users_is_said(tmp_path, line, why):
@@ -105,6 +111,8 @@ def test_a_recorded_way_is_the_monotone_cubic_of_another_program(tmp_path):
     ("s_m,offset_m\n0,1\n1,2\n", "p.csv:1: has no column time_s"), ("time_s,s_m,offset_m\n0,1,nan\n1,2,0\n", 'p.csv:2: "nan" is not a finite'),
     ("time_s,s_m,offset_m\n0,1,0\n", "p.csv: a path has at least two rows"), ("", "p.csv: has no header line"),
     ("time_s,s_m,offset_m,x_m\n0,1,0,1\n1,2,0,2\n", "one of both"), ("time_s\n0\n1\n", "has neither columns"),
+    ('"time_s","s_m","offset_m"\n0,1,0\n1,2,0\n', "p.csv:1: has no column time_s"), ("time_s,s_m,offset_m\n0,1_0,0\n1,2,0\n", 'p.csv:2: "1_0" is not a finite'),
+    ("time_s,s_m,offset_m\n0,infinity,0\n1,2,0\n", 'p.csv:2: "infinity" is not'), ("time_s,s_m,s_m\n0,1,0\n1,2,0\n", 'p.csv:1: column "s_m" comes twice'),
     ("time_s,s_m,offset_m\n0,1,0\n1,2\n", "p.csv:3: 2 cells"), ("time_s,s_m,offset_m\n0,0,0\n1,300,0\n", "p.csv:3: goes faster"),
 ])
 def test_what_is_wrong_with_a_recorded_way_is_said(tmp_path, text, why):

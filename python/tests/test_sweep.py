@@ -14,7 +14,8 @@ import pytest
 
 import phare
 from phare import sweep
-from phare.sweep.job import command_of
+from phare.sweep.job import command_of, drive_words
+from phare.sweep.plan import job_hash
 
 FIXED = '[fixed]\nframes = 2\nsize = "64x64"\n'
 EDGE = '[[measure]]\nname = "edge_m"\nrange_lx = 5\ny_m = -1.75\n'
@@ -34,6 +35,17 @@ def aims(tmp_path, examples, count):
 
 def run(plan, out, **more):
     return sweep.run_plan(sweep.read_plan(plan), out, progress=io.StringIO(), **more)
+
+
+def test_measures_are_of_the_design_that_a_job_shows(tmp_path):
+    plan = plan_of(tmp_path, FIXED + '[vary]\n"set.design" = [0, 1]\n' + EDGE + "z_m = 0.25\n")
+    run(plan, tmp_path / "out", workers=1)
+    table = pd.read_csv(tmp_path / "out" / "table.csv") if (tmp_path / "out" / "table.csv").exists() else pd.read_parquet(tmp_path / "out" / "table.parquet")
+    rig = phare.shipped_file("rigs/country_road.toml")
+    x = [[5.0 + 0.5 * i, -1.75, 0.25, -1.0, 0.0, 0.0] for i in range(591)]
+    lux = {name: phare.measure(rig, x, design=name, reference=True) for name in ("halogen", "led")}
+    farthest = [max(point[0] for point, lx in zip(x, lux[name]) if lx >= 5.0) for name in ("halogen", "led")]
+    assert list(table.sort_values("set.design").edge_m) == farthest and farthest[0] != farthest[1]
 
 
 # ---- plans
@@ -57,9 +69,49 @@ def test_a_latin_hypercube_has_one_value_in_each_part_and_repeats(tmp_path):
 
 
 def test_traffic_needs_no_law(tmp_path):
-    (tmp_path / "cars.toml").write_text("")
+    (tmp_path / "cars.toml").write_text(phare.shipped_file("examples/column.toml").read_text())
     job = sweep.read_plan(plan_of(tmp_path, "[fixed]\ntraffic = 'cars.toml'\n[vary]\naim = [1]\n")).jobs[0]
     assert f"--traffic {tmp_path.resolve() / 'cars.toml'}" in command_of(job, None)
+
+
+def test_traffic_is_in_the_drive_of_a_law_too(tmp_path):
+    (tmp_path / "cars.toml").write_text("")
+    job = sweep.read_plan(plan_of(tmp_path, "[fixed]\ntraffic = 'cars.toml'\nlaw = 'GlareFree'\n[vary]\naim = [1]\n")).jobs[0]
+    words = drive_words(job)
+    assert words["more"][-2:] == ["--traffic", str(tmp_path.resolve() / "cars.toml")] and words["sensors"].road_users == words["more"][-1]
+
+
+def test_a_job_is_another_when_what_its_files_name_has_changed(tmp_path, monkeypatch):
+    for name, text in (
+        ("low.ies", "1"), ("car.toml", "2"), ("scene.gltf", '{"images": [{"uri": "a%20road.png"}, {"uri": "data:none"}]}'), ("a road.png", "9"), ("scene_lane.csv", "4"), ("way.csv", "5"), ("tail.ies", "6"), ("lamps.toml", 'file = "street.ies"'),
+        ("street.ies", "7"), ("traffic.toml", '[[road_user]]\npath = "way.csv"\ntail_lamp = { file = "tail.ies" }\n'),
+        ("ourlaw.py", "import phare\nfrom ourparts import one\nclass L(phare.Controller): pass\n"), ("led.csv", "8"),
+    ):
+        (tmp_path / name).write_text(text)
+    (tmp_path / "ourparts").mkdir()
+    (tmp_path / "ourparts" / "__init__.py").write_text("")
+    (tmp_path / "ourparts" / "one.py").write_text("from . import two\n")
+    (tmp_path / "ourparts" / "two.py").write_text("")
+    (tmp_path / "aside.py").write_text("")
+    rig = phare.Rig.shipped()
+    rig.scene, rig.vehicle, rig.more["street_lamps"] = "scene.gltf", "car.toml", "lamps.toml"
+    rig.designs[0].lamps[0].sources[0].file = "low.ies"
+    rig.write(tmp_path / "rig.toml")
+    monkeypatch.syspath_prepend(tmp_path)
+    text = f'[fixed]\nrig = "rig.toml"\ntraffic = "traffic.toml"\nlamp = "low.ies,spectrum={tmp_path}/led.csv"\nlaw = "ourlaw:L"\n[vary]\naim = [1]\n'
+    plan = sweep.read_plan(plan_of(tmp_path, text))
+    before = job_hash(plan.jobs[0], plan)
+    assert job_hash(plan.jobs[0], plan) == before
+    for name in ("low.ies", "car.toml", "scene.gltf", "a road.png", "scene_lane.csv", "way.csv", "tail.ies", "street.ies", "ourlaw.py", "ourparts/one.py", "ourparts/two.py",
+                 "led.csv"):
+        file = tmp_path / name
+        was = file.read_text()
+        file.write_text(f"{was}\n# other\n")
+        assert job_hash(plan.jobs[0], plan) != before, name
+        file.write_text(was)
+        assert job_hash(plan.jobs[0], plan) == before, name
+    (tmp_path / "aside.py").write_text("# nobody imports it")
+    assert job_hash(plan.jobs[0], plan) == before
 
 
 def test_two_sweeps_at_once_need_two_folders(tmp_path):
@@ -194,6 +246,18 @@ def test_the_command_line_says_what_is_wrong(tmp_path):
     listed = say(str(plan), "--list")
     assert listed.returncode == 0 and listed.stdout.count("phare drive") == 2
     assert say(str(plan), "--only", "9", "--out", str(tmp_path / "o")).returncode == 2
+
+
+@pytest.mark.parametrize("code, why", [
+    ("import phare\nclass L(phare.Controller):\n    def __init__(self): raise ValueError('boom')\n", "law {0}:L: ValueError: boom"),
+    ("x = = 1\n", "law {0}:L: SyntaxError: invalid syntax"),
+])
+def test_a_law_that_cannot_be_made_fails_its_job_alone(tmp_path, monkeypatch, code, why):
+    name = "law_boom" if "boom" in code else "law_syntax"
+    (tmp_path / f"{name}.py").write_text(code)
+    monkeypatch.syspath_prepend(tmp_path)
+    done = run(plan_of(tmp_path, f'{FIXED}[vary]\nlaw = ["{name}:L", "BendingLight"]\n'), tmp_path / "out")
+    assert done.failed == [1] and why.format(name) in done.table.error[0] and done.table.frames[1] == 2
 
 
 def test_a_parquet_table_reads_back_as_it_was(tmp_path):

@@ -1,6 +1,7 @@
 """reference: light on the track tests of adaptive beams against figures by hand; laws against one that spares nobody."""
 
 import math
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -28,6 +29,41 @@ class Even(phare.Controller):
     def step(self, given):
         assert given.light == "low" and given.speed_mps > 11 and (given.yaw_rate_radps != 0) == (given.ahead[0].curvature_1pm != 0)
         return phare.Answer(levelling_rad=0.1)
+
+
+def test_a_law_that_fails_is_told(tmp_path):
+    class Broken(High):
+        def __init__(self, step, end):
+            self.raises = step, end
+
+        def step(self, given):
+            if self.raises[0]:
+                raise SystemExit("at the step")
+            return phare.Answer()
+
+        def end(self):
+            if self.raises[1]:
+                raise ValueError("at last")
+
+    rig = phare.shipped_file("rigs/matrix.toml")
+    for step, end, why in ((True, True, "in frame 0: SystemExit: at the step"), (False, True, "at its end: ValueError: at last")):
+        with pytest.raises(phare.LawFailed, match=why):
+            track_tests(rig, lambda step=step, end=end: Broken(step, end))
+    with pytest.raises(phare.BadInput, match="none.toml: No such file"):
+        track_tests("none.toml", High)
+
+
+@pytest.mark.parametrize("code, said", [
+    ("import phare\nclass L(phare.Controller):\n    def __init__(self): raise ValueError('boom')\n", "law mylaw:L: ValueError: boom"),
+    ("x = = 1\n", "law mylaw:L: SyntaxError: invalid syntax"), ("import sys; sys.exit(7)\n", "law mylaw:L: SystemExit: 7"),
+])
+def test_a_law_that_cannot_be_made_is_told_in_one_line(tmp_path, code, said):
+    (tmp_path / "mylaw.py").write_text(code)
+    ran = subprocess.run(
+        [sys.executable, "-m", "phare.rate", "adb", "--rig", phare.shipped_file("rigs/matrix.toml"), "--law", "mylaw:L"], capture_output=True, text=True,
+        env={**os.environ, "PYTHONPATH": f"{ROOT / 'python'}:{tmp_path}"},
+    )
+    assert ran.returncode == 2 and said in ran.stderr and ran.stderr.count("\n") == 1
 
 
 def test_the_tracks_are_those_of_the_rule():
@@ -84,6 +120,13 @@ def test_laws_are_told_apart(tmp_path):
     blind.write_page(tmp_path / "tracks.html")
     page = (tmp_path / "tracks.html").read_text()
     assert "oncoming, straight, 105 km/h" in page and "<circle" in page
+
+
+def test_a_late_camera_is_made_up_for_on_the_straight():
+    """1.2 s late: the others' speed stays, so nobody on a straight is dazzled. In bends their turn is not foreseen (docs/laws.md)."""
+    late = phare.Sensors(delay_s=1.2, range_m={"white": 400.0, "red": 200.0, "none": 60.0})
+    done = track_tests(phare.Rig.shipped("matrix"), GlareFree, sensors=late)
+    assert done.rows.passed[done.rows.track.isin([1, 7])].all()
 
 
 def test_an_aim_that_only_a_picture_finds_is_refused():

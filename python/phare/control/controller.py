@@ -8,6 +8,7 @@ import struct
 import subprocess
 import time
 from dataclasses import replace
+from numbers import Real
 from typing import Sequence
 
 from google.protobuf.message import DecodeError
@@ -29,6 +30,24 @@ class Controller:
 
     def end(self) -> None:
         """After the last frame."""
+
+
+def failed(wrong: BaseException, when: str) -> LawFailed:
+    """What a law raised, as the error of a law."""
+    if isinstance(wrong, LawFailed):
+        return wrong
+    fault = LawFailed(f"the law failed {when}: {type(wrong).__name__}: {wrong}")
+    fault.__cause__ = wrong
+    return fault
+
+
+def ended(law: Controller) -> LawFailed | None:
+    """Ends a law, and says why it could not."""
+    try:
+        law.end()
+    except (Exception, SystemExit) as wrong:
+        return failed(wrong, "at its end")
+    return None
 
 
 class Together(Controller):
@@ -78,7 +97,7 @@ def _turned(lamps: list[LampOfLaw], answer: Answer) -> list[LampOfLaw]:
 
 def _joined(one: LampLight, other: LampLight, sources: int) -> LampLight:
     def full(light: LampLight) -> list[float]:
-        dims = [light.dimming_01] if isinstance(light.dimming_01, (int, float)) else light.dimming_01
+        dims = [light.dimming_01] if isinstance(light.dimming_01, Real) else light.dimming_01
         return list(dims) * (sources if len(dims) == 1 else 1) or [1.0] * sources
 
     dims = [a * b for a, b in zip(full(one), full(other))]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from concurrent.futures import ThreadPoolExecutor
 from functools import lru_cache
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -48,7 +49,7 @@ def lamps_of(design: Design) -> list[LampOfLaw]:
         list(pool.map(lambda s: _source(s, 0.0, False), [s for lamp in design.lamps for s in lamp.sources]))
     lamps = []
     for lamp, name, twin in places:
-        aim_deg = float(lamp.aim) if isinstance(lamp.aim, (int, float)) else 0.0
+        aim_deg = float(lamp.aim) if isinstance(lamp.aim, Real) else 0.0
         x, y, z = np.asarray(lamp.position_m, float)
         lamps.append(LampOfLaw(name, x, -y if twin else y, z, [_source(s, aim_deg, twin) for s in lamp.sources]))
     return lamps

@@ -11,7 +11,7 @@ import threading
 import time
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, Mapping, Sequence
 
 import numpy as np
 
@@ -19,13 +19,24 @@ from .. import phare_pb2 as pb
 from .. import wire
 from ..errors import BadInput, LawFailed, PhareError
 from ..rig import Rig, resolved
-from .controller import Controller
+from .controller import Controller, ended, failed
 from .lamps import lamps_of
 from .messages import LIGHT, Answer, Given, LampOfLaw
 from .road_users import Lane
 from .sensors import Eyes, Pose, Sensors
 
 _LAW_PORT, _RECORDER_PORT, _VISUAL_PORT = 4, 2, 10
+_LEAVES_WITHIN_S = 5.0  # a law is waited for when its drive has ended; chosen
+
+
+def design_shown(settings: Mapping[str, Any], more: Sequence[str]) -> str | None:
+    """What the words of a drive say of the design that its picture shows: a setting before --design; None: nothing."""
+    words = [word.partition("=") for word in more]
+    given = [(flag, value or (more[i + 1] if i + 1 < len(more) else "")) for i, (flag, _, value) in enumerate(words)]
+    chosen = [value for flag, value in given if flag == "--design"]
+    chosen += [str(settings["design"])] if "design" in settings else []
+    chosen += [value.removeprefix("design=") for flag, value in given if flag == "--set" and value.startswith("design=")]
+    return chosen[-1] if chosen else None
 
 
 class Link:
@@ -33,12 +44,18 @@ class Link:
 
     def __init__(
         self, controller: Controller, rig_file: str | os.PathLike[str], port_base: int, lockstep: bool,
-        sensors: Sensors | None = None, driven_rig: Path | None = None,
+        sensors: Sensors | None = None, driven_rig: Path | None = None, design: str | None = None,
     ):
-        """driven_rig: a rig file that the drive makes of it, where it has lamps of one's own."""
+        """driven_rig: a rig file that the drive makes of it, where it has lamps of one's own. design: name or number of the one that the
+        picture shows, whatever the cockpit has chosen; None: as the rig's [desk] says."""
+        if isinstance(controller, type):
+            raise BadInput(f"controller is the class {controller.__name__}: give an object of it, {controller.__name__}()")
+        if not isinstance(controller, Controller):
+            raise BadInput(f"controller is {type(controller).__name__}, and no phare.Controller")
         self._law, self._rig_file, self._base, self._lockstep = controller, Path(rig_file), port_base, lockstep
         self._driven_rig = driven_rig
         self._rig = Rig.read(rig_file)
+        self._shown = design if design is not None else self._rig.more.get("desk", {}).get("design", "cockpit")
         bus = self._rig.more.get("bus", {})
         self._address = bus.get("address", "127.0.0.1")
         if not self._address.startswith("127."):
@@ -64,7 +81,7 @@ class Link:
 
     def __enter__(self) -> Link:
         if self._driven_rig is None:
-            self._lamps_of(0)
+            self._lamps_of(self._shown_index(0))
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4 << 20)
         try:
@@ -78,12 +95,14 @@ class Link:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        """Raises what the law failed by, where nothing else is wrong. One that does not come back from its step is left alone."""
         self._leave.set()
         if self._thread is not None:
-            self._thread.join()
+            self._thread.join(_LEAVES_WITHIN_S)
         if self._socket is not None:
             self._socket.close()
-        self._law.end()
+        if kind is None and self._fault is not None:
+            raise self._fault
 
     def fault(self) -> LawFailed | None:
         """Why the law does not go on; None as long as it does."""
@@ -96,12 +115,17 @@ class Link:
             writer.writerow(
                 ["frame_index", "time_s", "law_ms", "objects", "nearest_m", "seen_time_s", "light", "levelling_rad"]
             )
-            writer.writerows(self._rows)
+            writer.writerows(list(self._rows))
+
+    def _shown_index(self, of_cockpit: int) -> int:
+        """The design that shines, as visual/process has it: that of the desk before that of the cockpit; past the last: the last."""
+        names = [design.name for design in self._rig.designs]
+        shown = str(self._shown)
+        index = names.index(shown) if shown in names else int(shown) if shown.isdecimal() else of_cockpit
+        return min(index, len(names) - 1)
 
     def _lamps_of(self, design_index: int) -> list[LampOfLaw]:
         if design_index not in self._lamps:
-            if self._driven_rig is not None and self._driven_rig.exists():
-                self._rig = Rig.read(self._driven_rig)
             designs = self._rig.designs
             self._lamps[design_index] = lamps_of(designs[min(design_index, len(designs) - 1)])
         return self._lamps[design_index]
@@ -117,12 +141,11 @@ class Link:
                     self._in_lockstep()
                 else:
                     self._in_real_time()
-        except LawFailed as wrong:
-            self._fault = wrong
-        except Exception as wrong:  # whatever a law raises ends the drive with its own words
+        except BaseException as wrong:  # whatever a law raises, sys.exit() too, ends the drive with its own words
             frame = 0 if self._last_s is None else round(self._last_s * self._rig.frame_rate_hz)
-            self._fault = LawFailed(f"the law failed after frame {frame}: {type(wrong).__name__}: {wrong}")
-            self._fault.__cause__ = wrong
+            self._fault = failed(wrong, f"after frame {frame}")
+        why = ended(self._law)
+        self._fault = self._fault or why
 
     def _hear(self) -> None:
         """Takes all that waits; of each message the newest counts."""
@@ -181,12 +204,15 @@ class Link:
     def _given(self, number: int) -> Given:
         assert self._car is not None and self._cockpit is not None
         car, controls, time_s = self._car.vehicle_state, self._cockpit, self._car.sim_time_ns * 1e-9
+        if self._driven_rig is not None and not self._lamps and self._driven_rig.exists():
+            self._rig = Rig.read(self._driven_rig)
+        design_index = self._shown_index(controls.design_index)
         given = Given(
             frame_index=number, time_s=time_s, step_s=0.0 if self._last_s is None else max(0.0, time_s - self._last_s),
             speed_mps=car.speed_mps, yaw_rate_radps=car.yaw_rate_radps, steering_wheel_rad=controls.steering_wheel_rad,
             steer_rad=car.steer_rad, ax_mps2=car.ax_mps2, ay_mps2=car.ay_mps2, suspension_pitch_rad=car.suspension_pitch_rad,
             light=LIGHT[controls.light_switch], flash=controls.flash, high_beam_automatic=controls.high_beam_automatic,
-            design_index=controls.design_index, seen_time_s=time_s, lamps=self._lamps_of(controls.design_index),
+            design_index=design_index, seen_time_s=time_s, lamps=self._lamps_of(design_index),
         )
         pose = Pose(car.x_m, car.y_m, car.z_m, car.roll_rad, car.pitch_rad, car.yaw_rad)
         self._eyes.fill(given, pose, np.array([car.vx_mps, car.vy_mps, car.vz_mps]))

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import os
 from dataclasses import dataclass, field
+from numbers import Real
 from typing import Any
 
 from .. import phare_pb2 as pb
@@ -176,7 +177,7 @@ class Answer:
         for name, light in self.lamps.items():
             if name not in sources:
                 raise LawFailed(f"the law answered for lamp {name!r}: the design has {', '.join(sources)}")
-            dims = [light.dimming_01] if isinstance(light.dimming_01, (int, float)) else list(light.dimming_01)
+            dims = [light.dimming_01] if isinstance(light.dimming_01, Real) else list(light.dimming_01)
             if len(dims) > 1 and len(dims) != sources[name]:
                 raise LawFailed(f"the law answered {len(dims)} dimmings for lamp {name!r}, which has {sources[name]} sources")
             for dim in dims:

@@ -4,9 +4,9 @@ Both are held to tests/traffic/path_poses.csv.
 
 from __future__ import annotations
 
-import csv
 import math
 import os
+import re
 from bisect import bisect_right
 from dataclasses import dataclass
 
@@ -14,6 +14,7 @@ from ..errors import BadInput
 
 _FARTHEST_M, _FASTEST_MPS, _LONGEST_S = 1e6, 1000.0 / 3.6, 1e9
 _STANDS_MPS = 0.1  # slower, a way has no direction; chosen
+_NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?")  # as config/formats/csv_table.cpp has it
 
 
 @dataclass(frozen=True)
@@ -87,17 +88,23 @@ class RecordedPath:
 
 
 def _table(file: str | os.PathLike[str]) -> tuple[int, dict[str, int], list[tuple[int, list[float]]]]:
-    """Line of the header, its columns, and each row with its line; empty lines and those with # are passed over."""
+    """Line of the header, its columns, and each row with its line; empty lines and those with # are passed over. As
+    config/formats/csv_table.cpp reads it: no cell is quoted."""
     columns: dict[str, int] = {}
     rows: list[tuple[int, list[float]]] = []
     header_line = 1
     try:
-        with open(file, encoding="utf-8-sig", newline="") as text:
-            for line, cells in enumerate(csv.reader(text), 1):
-                cells = [cell.strip() for cell in cells]
-                if not "".join(cells) or cells[0].startswith("#"):
+        with open(file, encoding="utf-8-sig", newline="\n") as text:
+            for line, row in enumerate(text, 1):
+                row = row.removesuffix("\n").strip(" \t\r")
+                if "\r" in row:
+                    raise BadInput(f"{file}:{line}: has carriage returns within; a line ends with a line feed")
+                if not row or row.startswith("#"):
                     continue
+                cells = [cell.strip(" \t\r") for cell in row.split(",")]
                 if not columns:
+                    if twice := next((name for i, name in enumerate(cells) if name in cells[:i]), None):
+                        raise BadInput(f'{file}:{line}: column "{twice}" comes twice')
                     header_line, columns = line, {name: i for i, name in enumerate(cells)}
                     continue
                 if len(cells) != len(columns):
@@ -105,7 +112,7 @@ def _table(file: str | os.PathLike[str]) -> tuple[int, dict[str, int], list[tupl
                 rows.append((line, [_number(cell, f"{file}:{line}") for cell in cells]))
     except BadInput:
         raise
-    except (OSError, ValueError, csv.Error) as wrong:
+    except (OSError, ValueError) as wrong:
         raise BadInput(f"{file}: cannot be read: {wrong}") from wrong
     if not columns:
         raise BadInput(f"{file}: has no header line")
@@ -113,10 +120,7 @@ def _table(file: str | os.PathLike[str]) -> tuple[int, dict[str, int], list[tupl
 
 
 def _number(cell: str, place: str) -> float:
-    try:
-        value = float(cell)
-    except ValueError:
-        value = math.nan
+    value = float(cell) if _NUMBER.fullmatch(cell) else math.nan
     if not math.isfinite(value):
         raise BadInput(f'{place}: "{cell[:40]}" is not a finite number')
     return value

@@ -33,6 +33,7 @@ import numpy as np
 import pandas as pd
 
 from ..errors import BadInput
+from ..rig import resolved
 from ..toml_in import place_in, read_toml
 from .recorded_path import RecordedPath
 
@@ -164,6 +165,7 @@ _KEYS = {
 # For the picture, which reads their files and colours (docs/traffic.md): a file's name or a table.
 _LAMPS = ("low_beam", "high_beam", "tail_lamp", "brake_lamp", "third_brake_lamp")
 _OF_LAMP = ("file", "colour_temperature_k", "chromaticity_xy", "spectrum")
+_COOLEST_K, _HOTTEST_K = 1667.0, 25000.0  # of a source, as config/rig.h has them
 _NOT_WITH_PATH = ("direction", "start_s_m", "speed_kmh", "speeds", "offset_m", "across_kmh", "across_from_s", "across_to_s")
 
 # Bounds that no road reaches, as in config/traffic/road_users.cpp: they catch a mistyped exponent.
@@ -213,15 +215,46 @@ def _speeds(table: dict[str, object], place: str) -> tuple[tuple[float, float], 
     return tuple((float(time_s), float(kmh) / 3.6) for time_s, kmh in rows)
 
 
+def _check_lamp(key: str, value: object, kind: str, place: str, folder: Path) -> None:
+    """Raises what config/traffic/road_users.cpp refuses, but for what stands in the files."""
+    lit = kind in (*_MOTORS, "bicycle")
+    has, lamps = {
+        "low_beam": (lit, "headlamps"), "high_beam": (kind in _MOTORS, "high beam" if lit else "headlamps"), "tail_lamp": (lit, "tail lamps"),
+        "brake_lamp": (kind in _MOTORS, "brake lamps"), "third_brake_lamp": (kind == "car", "third brake lamp"),
+    }[key]
+    if not has:
+        raise BadInput(f"{place}: {key}: a {kind} has no {lamps}")
+    if not isinstance(value, str | dict):
+        raise BadInput(f"{place}: {key} = {value!r}: expected the name of a file, or a table of {', '.join(_OF_LAMP)}")
+    lamp: dict[str, object] = value if isinstance(value, dict) else {"file": value}
+    for unknown in set(lamp) - set(_OF_LAMP):
+        raise BadInput(f"{place}: {key}: unknown key {unknown}; there are {', '.join(_OF_LAMP)}")
+    for name in ("file", "spectrum"):
+        file = lamp.get(name, "-")
+        if not isinstance(file, str) or not file:
+            raise BadInput(f"{place}: {key}: {name} = {file!r}: expected the name of a file")
+        there = resolved(file) if file.startswith("generated/") else folder / file
+        if name in lamp and not there.is_file():
+            raise BadInput(f"{place}: {key}: {there}: {'is a folder' if there.is_dir() else 'no such file'}")
+    colours = [name for name in _OF_LAMP[1:] if name in lamp]
+    if len(colours) > 1:
+        raise BadInput(f"{place}: {key}: a light has one of {', '.join(colours)}")
+    kelvin, xy = lamp.get("colour_temperature_k", _COOLEST_K), lamp.get("chromaticity_xy", [0.3, 0.3])
+    if not _is_number(kelvin) or not _COOLEST_K <= float(str(kelvin)) <= _HOTTEST_K:
+        raise BadInput(f"{place}: {key}: colour_temperature_k = {kelvin}: expected {_COOLEST_K:g} to {_HOTTEST_K:g}")
+    if not isinstance(xy, list) or len(xy) != 2 or not all(map(_is_number, xy)) or xy[0] < 0.0 or xy[1] < 0.01 or xy[0] + xy[1] > 1.0:
+        raise BadInput(f"{place}: {key}: chromaticity_xy = {xy}: x and y of CIE 1931: x >= 0, y >= 0.01, x + y <= 1")
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
 def _road_user(table: dict[str, object], place: str, folder: Path) -> RoadUser:
     given: dict[str, object] = {}
     for key, value in table.items():
         if key in _LAMPS:
-            if not isinstance(value, str | dict):
-                raise BadInput(f"{place}: {key} = {value!r}: expected the name of a file, or a table of {', '.join(_OF_LAMP)}")
-            for unknown in set(value) - set(_OF_LAMP) if isinstance(value, dict) else ():
-                raise BadInput(f"{place}: {key}: unknown key {unknown}; there are {', '.join(_OF_LAMP)}")
-            continue
+            continue  # below, when its class is known
         if key not in _KEYS:
             raise BadInput(f"{place}: unknown key {key}; there are {', '.join([*_KEYS, *_LAMPS])}")
         wanted = _KEYS[key]
@@ -256,6 +289,8 @@ def _road_user(table: dict[str, object], place: str, folder: Path) -> RoadUser:
     for key in ("across_from_s", "across_to_s"):
         if key in table and float(str(table.get("across_kmh", 0.0))) == 0.0:
             raise BadInput(f"{place}: {key}: nobody goes across: there is no across_kmh")
+    if table.get("lights") == "high" and kind not in _MOTORS:
+        raise BadInput(f"{place}: lights: a {kind} has no high beam")
     if kind in ("pedestrian", "deer") and given.get("lights", False):
         raise BadInput(f"{place}: lights: a {kind} has none")
     speed_mps, across_mps = (float(str(given.pop(key, 0.0))) / 3.6 for key in ("speed_kmh", "across_kmh"))
@@ -265,6 +300,9 @@ def _road_user(table: dict[str, object], place: str, folder: Path) -> RoadUser:
         words["lights"] = False
     if "brake" in table and kind not in _MOTORS:
         raise BadInput(f"{place}: brake: a {kind} has no brake lamps")
+    for key in _LAMPS:
+        if key in table:
+            _check_lamp(key, table[key], kind, place, folder)
     words["speeds"] = _speeds(table, place)
     if "path" in table:
         if not table["path"]:

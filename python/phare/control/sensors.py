@@ -11,6 +11,7 @@ import math
 import os
 from collections import deque
 from dataclasses import dataclass, field
+from numbers import Integral, Real
 from typing import Sequence
 
 import numpy as np
@@ -50,13 +51,19 @@ class Sensors:
         others = ("road_users", "range_m", "camera_m", "seed")
         numbers = {name: value for name, value in vars(self).items() if name not in others}
         numbers |= {f"range_m of {lights}": value for lights, value in self.range_m.items()}
+        numbers |= {f"camera_m[{i}]": value for i, value in enumerate(self.camera_m)}
         for name, value in numbers.items():
-            if not 0.0 <= value <= most.get(name, math.inf):
+            if not isinstance(value, Real):
+                raise BadInput(f"Sensors: {name} is {value!r}, expected a number")
+            if not name.startswith("camera_m") and not 0.0 <= value <= most.get(name, math.inf):
                 raise BadInput(f"Sensors: {name} is {value}, expected 0 to {most.get(name, math.inf):g}")
         if not all(math.isfinite(value) for value in self.camera_m):
             raise BadInput(f"Sensors: camera_m is {self.camera_m}")
+        if not isinstance(self.seed, Integral) or self.seed < 0:
+            raise BadInput(f"Sensors: seed is {self.seed!r}, expected a whole number from 0")
         if set(self.range_m) != {"white", "red", "none"}:
             raise BadInput(f"Sensors: range_m has {sorted(self.range_m)}, expected white, red and none")
+        self.users()  # a file that cannot be read is told here, whoever is given the sensors
 
     def users(self) -> list[RoadUser]:
         """The road users, read where a file was named."""

@@ -6,6 +6,7 @@ import math
 
 from ..control.controller import Controller
 from ..control.messages import Answer, Given, LampLight, LampOfLaw, lane_aside_m
+from .checks import not_negative
 
 
 class BendingLight(Controller):
@@ -20,6 +21,9 @@ class BendingLight(Controller):
         self, *, ahead_s: float = 2.0, most_deg: float = 12.0, rate_degps: float = 30.0, outer_share: float = 1.0,
         from_kmh: float = 5.0,
     ):
+        not_negative(
+            "BendingLight", ahead_s=ahead_s, most_deg=most_deg, rate_degps=rate_degps, outer_share=outer_share, from_kmh=from_kmh
+        )
         self.ahead_s, self.most_rad, self.rate_radps = ahead_s, math.radians(most_deg), math.radians(rate_degps)
         self.outer_share, self.from_mps = outer_share, from_kmh / 3.6
         self._yaw_rad = 0.0

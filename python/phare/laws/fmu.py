@@ -30,7 +30,7 @@ def main() -> int:
     parser.add_argument("--rig", help="rig file of that drive [the demo]")
     parser.add_argument("--traffic", help="road users that the camera sees, and the picture shows (TOML)")
     parser.add_argument("--delay-s", type=float, help="of the camera [0]")
-    parser.usage = "%(prog)s [options] unit.fmu [-- further words for phare drive]"
+    parser.usage = "%(prog)s [options] unit.fmu [-- further words for phare drive, --port-base among them]"
     words, more = _parted(sys.argv[1:])
     options = parser.parse_args(words)
     of_a_drive = {"--rig": options.rig, "--traffic": options.traffic, "--delay-s": options.delay_s, "--": more or None}

@@ -7,15 +7,15 @@ from dataclasses import replace
 
 from ..control.controller import Controller
 from ..control.messages import Answer, Given, LampLight, LampOfLaw, RoadUserSeen, SourceOfLaw
-from ..errors import BadInput
+from .checks import not_negative, off_not_above_on
 
 
 class GlareFree(Controller):
     """Every segment of the high beam whose light would reach a lit road user is dark; the others shine.
 
     margin_deg: to both sides of a road user, and shade_from_m: height above the road from which it is spared. hold_s: one that
-    the camera has lost is spared for so long, where it must be by now. rise_s: a segment comes back so slowly, and goes dark at
-    once. predict: the camera's delay is made up for by closing speed and yaw rate. on_above_kmh, off_below_kmh: below, low
+    the camera has lost is spared for so long from when it told of it last, where it must be by now. rise_s: a segment comes back so
+    slowly, and goes dark at once. predict: the camera's delay is made up for by closing speed and yaw rate. on_above_kmh, off_below_kmh: below, low
     beam. Chosen by eye. Acts while the stalk is at low or high. What it does well and not: docs/laws.md.
     """
 
@@ -23,16 +23,13 @@ class GlareFree(Controller):
         self, *, margin_deg: float = 0.7, shade_from_m: float = 0.5, hold_s: float = 0.5, rise_s: float = 0.5,
         predict: bool = True, on_above_kmh: float = 30.0, off_below_kmh: float = 20.0,
     ):
-        numbers = dict(margin_deg=margin_deg, shade_from_m=shade_from_m, hold_s=hold_s, rise_s=rise_s, on_above_kmh=on_above_kmh,
-                       off_below_kmh=off_below_kmh)
-        for name, value in numbers.items():
-            if not (math.isfinite(value) and value >= 0.0):
-                raise BadInput(f"GlareFree: {name} is {value}, expected a number of 0 or more")
+        not_negative("GlareFree", margin_deg=margin_deg, shade_from_m=shade_from_m, hold_s=hold_s, rise_s=rise_s)
+        off_not_above_on("GlareFree", on_above_kmh, off_below_kmh)
         self.margin_rad, self.shade_from_m = math.radians(margin_deg), shade_from_m
         self.hold_s, self.rise_s, self.predict = hold_s, rise_s, predict
         self.on_above_kmh, self.off_below_kmh = on_above_kmh, off_below_kmh
         self._on = False
-        self._others: dict[int, tuple[float, RoadUserSeen]] = {}  # when they were seen last, and how
+        self._others: dict[int, tuple[float, float, RoadUserSeen]] = {}  # when told of last, of which moment, and how they were
         self._light: dict[str, list[float]] = {}
 
     def begin(self, lamps: list[LampOfLaw]) -> None:
@@ -44,9 +41,9 @@ class GlareFree(Controller):
         self._on = speed_kmh > (self.off_below_kmh if self._on else self.on_above_kmh)
         for other in given.objects:
             if other.lights != "none":
-                self._others[other.id] = (given.seen_time_s, other)
-        self._others = {key: seen for key, seen in self._others.items() if given.time_s - seen[0] <= self.hold_s + 0.3}
-        spared = [self._now(given, seen_s, other) for seen_s, other in self._others.values()]
+                self._others[other.id] = (given.time_s, given.seen_time_s, other)
+        self._others = {key: seen for key, seen in self._others.items() if given.time_s - seen[0] <= self.hold_s + 1e-9}
+        spared = [self._now(given, seen_s, other) for _, seen_s, other in self._others.values()]
         rise = given.step_s / self.rise_s if self.rise_s > 0 else 1.0
         for lamp in given.lamps:
             light = self._light[lamp.lamp]

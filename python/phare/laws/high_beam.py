@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ..control.controller import Controller
 from ..control.messages import Answer, Given, LampOfLaw
+from .checks import not_negative, off_not_above_on
 
 
 class AutomaticHighBeam(Controller):
@@ -14,6 +15,8 @@ class AutomaticHighBeam(Controller):
     """
 
     def __init__(self, *, on_above_kmh: float = 40.0, off_below_kmh: float = 25.0, on_after_s: float = 1.5):
+        off_not_above_on("AutomaticHighBeam", on_above_kmh, off_below_kmh)
+        not_negative("AutomaticHighBeam", on_after_s=on_after_s)
         self.on_above_kmh, self.off_below_kmh, self.on_after_s = on_above_kmh, off_below_kmh, on_after_s
         self._on, self._alone_s = False, on_after_s
 

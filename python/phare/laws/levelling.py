@@ -6,6 +6,7 @@ import math
 
 from ..control.controller import Controller
 from ..control.messages import Answer, Given, LampOfLaw
+from .checks import not_negative
 
 
 class DynamicLevelling(Controller):
@@ -17,6 +18,7 @@ class DynamicLevelling(Controller):
     """
 
     def __init__(self, *, follow_s: float = 0.05, rate_degps: float = 20.0, most_deg: float = 2.0):
+        not_negative("DynamicLevelling", follow_s=follow_s, rate_degps=rate_degps, most_deg=most_deg)
         self.follow_s, self.rate_radps, self.most_rad = follow_s, math.radians(rate_degps), math.radians(most_deg)
         self._filtered_rad = self._up_rad = 0.0
         self._first = True

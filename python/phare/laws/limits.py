@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from numbers import Real
 
 from ..control.controller import Controller
 from ..control.messages import Answer, Given, LampLight, LampOfLaw
@@ -41,7 +42,8 @@ class ModuleLimits(Controller):
 
     def step(self, given: Given) -> Answer:
         answer = self.law.step(given)
-        high = (answer.light or given.light) == "high" or given.flash
+        stalk_lets = given.light in ("low", "high")  # a law lights nothing that the driver has switched off
+        high = ((answer.light if stalk_lets else None) or given.light) == "high" or given.flash
         lights = dict(answer.lamps)
         for lamp in given.lamps:
             limited = [i for i, source in enumerate(lamp.sources) if source.function == "high"]
@@ -49,7 +51,7 @@ class ModuleLimits(Controller):
                 continue
             self._warm(lamp.lamp, given.step_s)
             light = lights.get(lamp.lamp, LampLight())
-            dims = [light.dimming_01] if isinstance(light.dimming_01, (int, float)) else list(light.dimming_01)
+            dims = [light.dimming_01] if isinstance(light.dimming_01, Real) else list(light.dimming_01)
             dims = dims * len(lamp.sources) if len(dims) == 1 else dims or [1.0] * len(lamp.sources)
             asked_w = self.source_w * sum(dims[i] for i in limited) if high else 0.0
             share = min(1.0, self.power_w / asked_w) if asked_w > 0.0 else 1.0

@@ -13,6 +13,7 @@ import numpy as np
 from ..control.controller import Controller
 from ..control.messages import Answer, Given, LampLight, LampOfLaw, lane_aside_m
 from ..errors import BadInput
+from .checks import not_negative, share_01
 
 
 class LaneProjection(Controller):
@@ -32,6 +33,11 @@ class LaneProjection(Controller):
     ):
         if columns < 2 or rows < 2 or not (h_deg[0] < h_deg[1] and v_deg[0] < v_deg[1]):
             raise BadInput("a raster of 2 x 2 pixels at least, its angles ascending")
+        name = type(self).__name__
+        share_01(name, line_01=line_01, road_01=road_01, above_01=above_01)
+        not_negative(name, from_m=from_m, to_m=to_m, half_width_m=half_width_m, line_m=line_m)
+        if not math.isfinite(up_deg):
+            raise BadInput(f"{name}: up_deg is {up_deg}")
         self.lamp, self.columns, self.rows = lamp, columns, rows
         self.from_m, self.to_m, self.half_width_m, self.line_m = from_m, to_m, half_width_m, line_m
         self.shares = [round(255 * share) for share in (line_01, road_01, above_01)]
@@ -44,6 +50,9 @@ class LaneProjection(Controller):
 
     def begin(self, lamps: list[LampOfLaw]) -> None:
         self._place = next((lamp for lamp in lamps if lamp.lamp == self.lamp), None)
+        if self._place is None:
+            names = ", ".join(lamp.lamp for lamp in lamps)
+            raise BadInput(f"{type(self).__name__}: no lamp {self.lamp!r}: the design has {names}")
         if self._folder is None:
             memory = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
             self._folder = tempfile.TemporaryDirectory(prefix="phare-lane-", dir=memory)

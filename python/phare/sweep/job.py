@@ -15,8 +15,9 @@ from ..control.fmu import Fmu
 from ..control.road_users import read_road_users
 from ..control.sensors import Sensors
 from ..drive import Report, drive
-from ..errors import BadInput
+from ..errors import BadInput, PhareError
 from ..judge import judge_glare
+from ..light_in_drive import design_of_stills
 from ..measuring import measure
 from ..rig import Rig, shipped_file
 from .plan import Job, Measure, Plan, is_fmu
@@ -31,8 +32,12 @@ def law_named(name: str) -> Controller:
     module, _, cls = name.rpartition(":")
     try:
         made = getattr(importlib.import_module(module or "phare.laws"), cls)()
-    except (ImportError, AttributeError, TypeError) as wrong:
+    except PhareError:
+        raise
+    except (ImportError, AttributeError) as wrong:
         raise BadInput(f"law {name}: {wrong}") from wrong
+    except (Exception, SystemExit) as wrong:  # whatever its code raises
+        raise BadInput(f"law {name}: {type(wrong).__name__}: {wrong}") from wrong
     if not isinstance(made, Controller):
         raise BadInput(f"law {name}: is no phare.Controller")
     return made
@@ -48,15 +53,15 @@ def drive_words(job: Job) -> dict[str, Any]:
     }
     words["settings"] = {key[4:]: value for key, value in s.items() if key.startswith("set.")}
     more = ["--audit-every", "0"]
-    for key in ("vehicle", "friction", "roughness", "road", *(() if "law" in s else ("traffic",))):
+    for key in ("vehicle", "friction", "roughness", "road", "traffic"):
         more += [f"--{key}", str(s[key])] if key in s else []
     words["more"] = more
     if "law" in s:
         words["controller"] = law_named(str(s["law"]))
-        seen_m = {**Sensors().range_m, **({"red": float(s["sensor_red_range_m"])} if "sensor_red_range_m" in s else {})}
+        seen_m = {**Sensors().range_m, **({"red": s["sensor_red_range_m"]} if "sensor_red_range_m" in s else {})}
         words["sensors"] = Sensors(
-            s.get("traffic", ()), range_m=seen_m, delay_s=float(s.get("sensor_delay_s", 0)), noise_angle_deg=float(s.get("sensor_noise_deg", 0)),
-            miss_01=float(s.get("sensor_miss_01", 0)), seed=int(s.get("sensor_seed", 1)),
+            s.get("traffic", ()), range_m=seen_m, delay_s=s.get("sensor_delay_s", 0.0), noise_angle_deg=s.get("sensor_noise_deg", 0.0),
+            miss_01=s.get("sensor_miss_01", 0.0), seed=s.get("sensor_seed", 1),
         )
     return words
 
@@ -85,7 +90,7 @@ def run_job(job: Job, plan: Plan, folder: Path) -> dict[str, Any]:
         row["glare_s"], row["glare_of_s"] = round(glare.above_s, 9), round(glare.judged_s, 9)
         glare.write_page(folder / "glare.html")
     for wanted in plan.measures:
-        row[wanted.name] = figure(wanted, rig_file)
+        row[wanted.name] = figure(wanted, rig_file, design_of_stills(report))
     row["command"] = command_of(job, plan)
     (folder / "drive.pcap").unlink(missing_ok=True)  # the largest file, and the same drive gives it again
     return row
@@ -104,18 +109,18 @@ def figures_of(report: Report) -> dict[str, Any]:
     files = report.frame_files
     if files:
         figures["picture_mean"] = round(float(report.frame(-1).mean()), 6)
-    if (report.folder / "law.csv").exists():
+    if report.led_by_law:
         steps = report.law_steps
         figures["high_share"] = round(float((steps.light == "high").mean()), 6)
     return figures
 
 
-def figure(wanted: Measure, rig_file: Path) -> float:
+def figure(wanted: Measure, rig_file: Path, design: str) -> float:
     """In lux, or in metres ahead of the car's origin; 0 where so many lux are nowhere."""
     if wanted.at:
-        return float(measure(rig_file, [wanted.at], beams=wanted.beams, reference=True)[0])
+        return float(measure(rig_file, [wanted.at], beams=wanted.beams, design=design, reference=True)[0])
     x = np.arange(5.0, _RANGE_TO_M + 0.1, _RANGE_STEP_M)
     points = np.column_stack([x, *(np.full_like(x, value) for value in (wanted.y_m, wanted.z_m, -1.0, 0.0, 0.0))])
-    lux = measure(rig_file, points, beams=wanted.beams, reference=True)
+    lux = measure(rig_file, points, beams=wanted.beams, design=design, reference=True)
     bright = np.flatnonzero(lux >= wanted.range_lx)
     return float(x[bright[-1]]) if bright.size else 0.0

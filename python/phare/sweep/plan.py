@@ -17,6 +17,7 @@ from typing import Any
 
 from ..errors import BadInput
 from ..toml_in import place_in, read_toml
+from .named_files import digest_of, digest_of_module
 
 # What a drive can be told. Of these the values are paths, relative to the plan.
 FILES = ("rig", "lamp", "lamp_high", "lamp_fog", "drive", "script", "log", "vehicle", "road", "traffic")
@@ -82,13 +83,17 @@ def is_fmu(law: Any) -> bool:
 
 
 def job_hash(job: Job, plan: Plan) -> str:
-    """Of all that the figures of a job depend on but the programs: settings, contents of the files they name, measures."""
+    """Of all that the figures of a job depend on but the programs and what a law opens by itself: settings, measures, contents of the
+    files that settings name, of those that these name (a rig's lamps, scene and vehicle, ways of traffic), and a law's code."""
     contents = {}
     for key in (*FILES, "law"):
         value = job.settings.get(key)
         if value is not None and (key != "law" or is_fmu(value)):
-            file = Path(str(value).split(",")[0])
-            contents[key] = hashlib.sha256(file.read_bytes()).hexdigest() if file.is_file() else "none"
+            file, *words = str(value).split(",")
+            named = [Path(word.partition("=")[2]) for word in words]  # spectrum=, pixels= of a lamp
+            contents[key] = [digest_of(Path(file)), *(digest_of(other) for other in named if other.is_absolute())]
+        elif value is not None and ":" in str(value):
+            contents[key] = [digest_of_module(str(value).rpartition(":")[0])]
     text = json.dumps([job.settings, contents, [m.__dict__ for m in plan.measures]], sort_keys=True, default=str)
     return hashlib.sha256(text.encode()).hexdigest()
 
