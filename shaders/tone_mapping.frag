@@ -9,5 +9,5 @@ layout(location = 0) out vec4 result;
 
 void main() {
   vec3 luminance = held_by_half(texelFetch(hdr_cdm2, ivec2(gl_FragCoord.xy), 0).rgb);
-  result = vec4(srgb_encoded(tone_curve(luminance * constants.exposure.rgb)), 1.0);
+  result = vec4(srgb_encoded(tone_curve(luminance * constants.exposure.rgb)) + dither(gl_FragCoord.xy), 1.0);
 }

@@ -57,7 +57,7 @@ EffectDecision hdr_image(const EffectFacts& facts) {
 
 EffectDecision overlay(const EffectFacts& facts) {
   if (facts.overlay_lines == 0) return {0, "no line of text to show"};
-  return {1, std::to_string(facts.overlay_lines) + " lines of text to show"};
+  return {1, std::to_string(facts.overlay_lines) + " pieces of text and strokes to show"};
 }
 
 EffectDecision fog(const EffectFacts& facts) {

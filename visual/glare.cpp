@@ -36,6 +36,11 @@ double least_angle_deg(const ViewGeometry& view, const glm::dvec3& place_m) {
 
 std::vector<GlaringLamp> glare_seen(const ViewGeometry& view, std::span<const GlaringLamp> sources,
                                     const Viewer& viewer, double display_per_cdm2) {
+  struct Veil {
+    double most_cdm2;  ///< anywhere in the view
+    GlaringLamp source;
+  };
+  std::vector<Veil> veils;
   std::vector<GlaringLamp> seen;
   if (view.camera().orthographic_width_m > 0.0) return seen;  // from everywhere at once, by no eye
   for (const GlaringLamp& source : sources) {
@@ -43,10 +48,19 @@ std::vector<GlaringLamp> glare_seen(const ViewGeometry& view, std::span<const Gl
     const double least_deg = least_angle_deg(view, source.place_m);
     const double most_cdm2 = source.eye_lx * std::max(std::cos(least_deg * std::numbers::pi / 180.0), 0.0) *
                              veil_general_per_sr(viewer, least_deg);
-    if (most_cdm2 * display_per_cdm2 >= kHalfStep) seen.push_back(source);
+    if (most_cdm2 * display_per_cdm2 >= kHalfStep) veils.push_back({most_cdm2, source});
   }
-  std::ranges::sort(seen, std::greater{}, &GlaringLamp::eye_lx);
-  if (seen.size() > kMostGlaringLamps) seen.resize(kMostGlaringLamps);
+  std::ranges::stable_sort(veils, std::greater{}, &Veil::most_cdm2);
+  if (veils.size() > kMostGlaringLamps) {
+    const double none_cdm2 = veils[kMostGlaringLamps].most_cdm2,
+                 whole_cdm2 = veils[kMostGlaringLamps - kDimmedLamps].most_cdm2;
+    veils.resize(kMostGlaringLamps);
+    for (Veil& veil : veils)  // of equal ones none can be told from the others
+      if (whole_cdm2 > none_cdm2)
+        veil.source.eye_lx *= std::min((veil.most_cdm2 - none_cdm2) / (whole_cdm2 - none_cdm2), 1.0);
+  }
+  for (const Veil& veil : veils)
+    if (veil.source.eye_lx > 0.0) seen.push_back(veil.source);
   return seen;
 }
 

@@ -9,6 +9,7 @@
 
 #include "shaders/lib/tone.h"
 #include "shaders/sky.h"
+#include "visual/lit_scene.h"
 #include "visual/renderer.h"
 
 namespace phare {
@@ -23,8 +24,8 @@ Sky sky_exposed(float per_cdm2) {
   return {glm::vec3(1.1f, 1.0f, 0.8f) * per_cdm2, ViewInput{}.sky_luminance_cdm2};
 }
 
-// From black through the exposures that are used to white: no elevation is shown a step of the display off.
-TEST(Sky, EveryElevationIsWithinAStepOfItsColour) {
+// From black through the exposures that are used to white: what is blended is within half a step of the display.
+TEST(Sky, EveryElevationIsWithinHalfAStepOfItsColour) {
   for (const float exposure : {1e-3f, 0.3f, 3.0f, 30.0f, 300.0f, 3e4f}) {
     const Sky sky = sky_exposed(exposure);
     const std::vector<SkyBand> bands = sky_bands(sky, false);
@@ -33,18 +34,45 @@ TEST(Sky, EveryElevationIsWithinAStepOfItsColour) {
     for (std::size_t i = 0; i < bands.size(); ++i) {
       if (i > 0) {
         EXPECT_EQ(bands[i].low, bands[i - 1].high);
+        EXPECT_EQ(bands[i].colour_low, bands[i - 1].colour_high);
       }
-      EXPECT_EQ(bands[i].colour_low, bands[i].colour_high);
       for (double t = 0.0; t <= 1.0; t += 0.125) {
         const double sine = static_cast<double>(bands[i].low) * (1.0 - t) + static_cast<double>(bands[i].high) * t;
-        const glm::vec3 off = glm::abs(255.0f * bands[i].colour_low - formula(sky, sine));
-        // Half a step by rounding, half by the band, whose middle in sine is not quite its middle in colour.
-        EXPECT_LT(static_cast<double>(std::max({off.x, off.y, off.z})), 1.1) << exposure << " " << sine;
+        const glm::vec3 blended = glm::mix(bands[i].colour_low, bands[i].colour_high, static_cast<float>(t));
+        const glm::vec3 off = glm::abs(255.0f * blended - formula(sky, sine));
+        EXPECT_LT(static_cast<double>(std::max({off.x, off.y, off.z})), 0.5) << exposure << " " << sine;
       }
     }
   }
-  EXPECT_EQ(sky_bands(sky_exposed(1e-3f), false).size(), 1u) << "a black sky is one band";
-  EXPECT_GT(sky_bands(sky_exposed(3.0f), false).size(), 5u);
+}
+
+// Where there is no light neither design is brighter; false colours have a colour for 0 lx.
+TEST(Sky, IsBlackWhereDesignsAreCompared) {
+  const ViewGeometry view({}, 1.5);
+  for (const LampOutput output : {LampOutput::kDifference, LampOutput::kRatio, LampOutput::kFalseColour}) {
+    const vk::ClearValue value = SkyPass::clear_value(sky_exposed(0.3f), output, view);
+    EXPECT_EQ(value.color.float32[0], 0.0f);
+    EXPECT_EQ(value.color.float32[1], 0.0f);
+    EXPECT_EQ(value.color.float32[2], output == LampOutput::kFalseColour ? 0.1f : 0.0f);
+  }
+}
+
+// Over a hundred pixels the mean of what is rounded is what was to be shown, and a step stays a step.
+TEST(Dither, LeavesTheMeanAndWholeSteps) {
+  for (const float value : {0.0f, 1.0f, 17.0f, 254.0f, 255.0f, 3.25f, 12.5f, 100.9f}) {
+    double sum = 0.0, least = 1e9, most = -1e9;
+    for (int y = 0; y < 40; ++y)
+      for (int x = 0; x < 40; ++x) {
+        const float signal =
+            value / 255.0f + shader::dither({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 300.5f});
+        const double shown = std::round(255.0 * std::clamp(static_cast<double>(signal), 0.0, 1.0));
+        sum += shown;
+        least = std::min(least, shown);
+        most = std::max(most, shown);
+      }
+    EXPECT_NEAR(sum / 1600.0, static_cast<double>(value), 0.02) << value;
+    EXPECT_EQ(most - least, value == std::round(value) ? 0.0 : 1.0) << value;
+  }
 }
 
 TEST(Sky, BlendedBandsOfAnHdrImageAreCloseToTheFormula) {

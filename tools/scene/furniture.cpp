@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <string_view>
 
 #include "tools/scene/lane_files.h"
+#include "tools/scene/lettering.h"
 #include "tools/scene/parts.h"
 
 namespace phare::scene {
@@ -265,7 +267,7 @@ void draw_chevron(Node& node, const glm::dmat4& frame, double bend) {
   plate.mast(0.0, 1.4);
 }
 
-/// StVO 310: yellow board at a village's edge, without a name.
+/// StVO 310: yellow board at a village's edge.
 void draw_village(Node& node, const glm::dmat4& frame) {
   Plate plate(node, frame, 1.9);
   const Outline rim{{-0.55, -0.36}, {0.55, -0.36}, {0.55, 0.36}, {-0.55, 0.36}};
@@ -273,18 +275,14 @@ void draw_village(Node& node, const glm::dmat4& frame) {
   plate.ring(Material::kSheetBlack, rim, inside);
   plate.polygon(Material::kSheetYellow, inside, 0.0);
   plate.back(rim);
-  // "PHARE" as strokes on a grid, 0.16 m high; the line below stands for the district.
-  const auto letter = [&](double u, std::vector<std::array<double, 4>> strokes) {
-    for (const auto& l : strokes) {
+  // 0.18 m high; the line below stands for the district.
+  double u = -0.40;
+  for (const char letter : std::string_view("PHARE")) {
+    for (const LetterStroke& l : strokes_of(letter))
       plate.stroke(Material::kSheetBlack, {u + 0.10 * l[0], 0.02 + 0.18 * l[1]}, {u + 0.10 * l[2], 0.02 + 0.18 * l[3]},
                    0.026, 1.0);
-    }
-  };
-  letter(-0.40, {{0, 0, 0, 1}, {0, 0.95, 1, 0.95}, {1, 1, 1, 0.5}, {1, 0.5, 0, 0.5}});
-  letter(-0.23, {{0, 0, 0, 1}, {1, 0, 1, 1}, {0, 0.5, 1, 0.5}});
-  letter(-0.06, {{0, 0, 0.5, 1}, {0.5, 1, 1, 0}, {0.2, 0.35, 0.8, 0.35}});
-  letter(0.11, {{0, 0, 0, 1}, {0, 0.95, 1, 0.95}, {1, 1, 1, 0.5}, {1, 0.5, 0, 0.5}, {0.3, 0.5, 1, 0}});
-  letter(0.28, {{0, 0, 0, 1}, {0, 0.95, 1, 0.95}, {0, 0.5, 0.8, 0.5}, {0, 0.05, 1, 0.05}});
+    u += 0.17;
+  }
   plate.stroke(Material::kSheetBlack, {-0.3, -0.16}, {0.3, -0.16}, 0.05, 1.0);
   plate.mast(-0.42, 2.2);
   plate.mast(0.42, 2.2);

@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
+#include "tools/scene/lettering.h"
 #include "tools/scene/parts.h"
 #include "tools/scene/path.h"
 
@@ -68,7 +70,7 @@ void add_rail(Model& model, const Path& path, int number, double begin, double e
 }
 
 /// A plate that looks back along the road at who comes: its lower edge at z.
-void draw_plate(Pen pen, double width, double height, double z) {
+void draw_plate(Pen pen, double width, double height, double z, std::string_view upper, std::string_view lower) {
   const auto face = [&](Material m, double x, double inset) {
     const double y = 0.5 * width - inset;
     pen.quad(m, {x, y, z + inset}, {x, -y, z + inset}, {x, -y, z + height - inset}, {x, y, z + height - inset});
@@ -76,14 +78,27 @@ void draw_plate(Pen pen, double width, double height, double z) {
   pen.box(Material::kSignBack, {0.0, -0.5 * width, z}, {0.06, 0.5 * width, z + height});
   face(Material::kSheetWhite, -0.004, 0.0);
   face(Material::kSheetBlue, -0.008, 0.12);
-  // Two lines of lettering as bars, and an arrow.
-  const auto bar = [&](double y0, double y1, double low, double high) {
-    pen.quad(Material::kSheetWhite, {-0.012, y1, z + low * height}, {-0.012, y0, z + low * height},
-             {-0.012, y0, z + high * height}, {-0.012, y1, z + high * height});
+  // Two lines of letters, and an arrow that points down to the lane. y counts to the left, as who comes reads.
+  const auto stroke = [&](std::array<double, 2> a, std::array<double, 2> b, double wide) {
+    const double dy = b[0] - a[0], dz = b[1] - a[1], scale = 0.5 * wide / std::hypot(dy, dz);
+    const double ny = dz * scale, nz = -dy * scale;
+    pen.quad(Material::kSheetWhite, {-0.012, a[0] - ny, a[1] - nz}, {-0.012, b[0] - ny, b[1] - nz},
+             {-0.012, b[0] + ny, b[1] + nz}, {-0.012, a[0] + ny, a[1] + nz});
   };
-  for (double y = -0.36; y < 0.3; y += 0.11) bar(y * width, (y + 0.085) * width, 0.62, 0.8);
-  for (double y = -0.36; y < 0.1; y += 0.11) bar(y * width, (y + 0.085) * width, 0.34, 0.5);
-  bar(-0.02 * width, 0.02 * width, 0.08, 0.26);
+  const auto line = [&](std::string_view text, double low) {
+    const double high = 0.15 * height, wide = 0.62 * high, step = 1.45 * wide;
+    double left = 0.42 * width;
+    for (const char letter : text) {
+      for (const LetterStroke& l : strokes_of(letter))
+        stroke({left - wide * l[0], z + low + high * l[1]}, {left - wide * l[2], z + low + high * l[3]}, 0.17 * high);
+      left -= step;
+    }
+  };
+  line(upper, 0.68 * height);
+  line(lower, 0.42 * height);
+  const double tip = z + 0.1 * height, top = z + 0.32 * height, barb = 0.09 * height;
+  stroke({0.0, top}, {0.0, tip}, 0.03 * height);
+  for (const double side : {-1.0, 1.0}) stroke({side * barb, tip + barb}, {0.0, tip}, 0.03 * height);
 }
 
 void add_gantry(Model& model, const Path& path) {
@@ -92,8 +107,8 @@ void add_gantry(Model& model, const Path& path) {
   pen.box(Material::kSteel, {-0.15, -kPaved_m - 1.2, -0.3}, {0.15, -kPaved_m - 0.9, 7.4});
   pen.box(Material::kSteel, {-0.15, -0.15, -0.3}, {0.15, 0.15, 7.4});
   pen.box(Material::kSteel, {-0.2, -kPaved_m - 1.2, 7.0}, {0.2, 0.15, 7.4});
-  draw_plate(Pen(node, path.placed(kGantry_m - 0.25, -8.6)), 4.6, 2.6, 5.1);
-  draw_plate(Pen(node, path.placed(kGantry_m - 0.25, -4.0)), 4.0, 2.6, 5.1);
+  draw_plate(Pen(node, path.placed(kGantry_m - 0.25, -8.6)), 4.6, 2.6, 5.1, "LUMEN", "A 7  NORD");
+  draw_plate(Pen(node, path.placed(kGantry_m - 0.25, -4.0)), 4.0, 2.6, 5.1, "CANDELA", "A 25");
 }
 
 void add_bridge(Model& model, const Path& path) {

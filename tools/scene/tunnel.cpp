@@ -18,6 +18,29 @@ constexpr double kLane_m = 3.5, kPaved_m = 3.75, kWall_m = 4.65, kKerb_m = 0.15,
 constexpr dvec2 kCut_m{0.9, 0.7};  // what the vault cuts off of the corners above the walls: across, up
 constexpr double kLampEvery_m = 8.0, kLampOffset_m = 2.1;
 
+/// ISO 7010 E001 in outline: who runs through a door, and an arrow that way. On a wall at y 0 that looks to y.
+void draw_escape_sign(Pen pen) {
+  pen.box(Material::kEscapeSign, {-0.3, 0.0, 1.2}, {0.3, 0.03, 1.5});
+  const auto stroke = [&](dvec2 a, dvec2 b, double wide) {
+    const dvec2 d = b - a, n = 0.5 * wide / glm::length(d) * dvec2(d.y, -d.x);
+    const auto at = [](dvec2 p) { return dvec3(p.x, 0.034, 1.2 + p.y); };
+    pen.quad(Material::kEscapeSignWhite, at(a + n), at(a - n), at(b - n), at(b + n));
+  };
+  stroke({0.03, 0.02}, {0.03, 0.28}, 0.02);  // the door
+  stroke({0.03, 0.27}, {0.2, 0.27}, 0.02);
+  stroke({0.2, 0.28}, {0.2, 0.02}, 0.02);
+  stroke({0.105, 0.222}, {0.145, 0.222}, 0.04);  // head, trunk, arms, legs
+  stroke({0.12, 0.195}, {0.1, 0.11}, 0.035);
+  stroke({0.17, 0.165}, {0.075, 0.18}, 0.018);
+  stroke({0.1, 0.12}, {0.06, 0.075}, 0.022);
+  stroke({0.06, 0.075}, {0.075, 0.03}, 0.02);
+  stroke({0.105, 0.12}, {0.14, 0.08}, 0.022);
+  stroke({0.14, 0.08}, {0.175, 0.085}, 0.02);
+  stroke({-0.03, 0.15}, {-0.24, 0.15}, 0.03);  // the arrow
+  stroke({-0.24, 0.15}, {-0.17, 0.21}, 0.03);
+  stroke({-0.24, 0.15}, {-0.17, 0.09}, 0.03);
+}
+
 bool inside(double s) {
   return s > kBegin_m && s < kEnd_m;
 }
@@ -172,7 +195,7 @@ void add_things(Model& model, const Path& path) {
     }
     if (number % 2 == 1) {
       Pen pen(node, path.placed(s, -kWall_m, 0.0, kKerb_m));
-      pen.box(Material::kEscapeSign, {-0.3, 0.0, 1.2}, {0.3, 0.03, 1.5});
+      draw_escape_sign(pen);
     }
   }
   number = 0;

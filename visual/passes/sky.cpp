@@ -9,9 +9,7 @@
 #include "shaders/lib/tone.h"
 #include "shaders/sky.h"
 #include "shaders/sky_frag.h"
-#include "shaders/sky_frag_flat.h"
 #include "shaders/sky_vert.h"
-#include "shaders/sky_vert_flat.h"
 #include "visual/lit_scene.h"
 
 namespace phare {
@@ -38,31 +36,6 @@ struct SkyVertex {
   glm::vec3 direction, colour;
 };
 static_assert(sizeof(SkyVertex) == 24);
-
-std::vector<SkyBand> bands_of_display(const Sky& sky) {
-  const glm::vec3 horizon = 255.0f * shown(sky, 0.0), zenith = 255.0f * shown(sky, 1.0), fall = horizon - zenith;
-  const int channel = fall.x >= fall.y && fall.x >= fall.z ? 0 : fall.y >= fall.z ? 1 : 2;
-  std::vector<SkyBand> bands;
-  double low = 0.0;
-  const auto band_to = [&](double high) {
-    const glm::vec3 colour = glm::round(255.0f * shown(sky, 0.5 * (low + high))) / 255.0f;
-    bands.push_back({static_cast<float>(low), static_cast<float>(high), colour, colour});
-    low = high;
-  };
-  // Where it goes from one of its 256 values to the next; it falls from the horizon to the zenith.
-  const int first = static_cast<int>(std::lround(horizon[channel])),
-            last = static_cast<int>(std::lround(zenith[channel]));
-  for (int value = first; value > last; --value) {
-    double before = low, after = 1.0;
-    for (int i = 0; i < 24; ++i) {
-      const double middle = 0.5 * (before + after);
-      (255.0 * static_cast<double>(shown(sky, middle)[channel]) > value - 0.5 ? before : after) = middle;
-    }
-    band_to(before);
-  }
-  band_to(1.0);
-  return bands;
-}
 
 /// Two triangles for each of its sectors.
 void add_band(const SkyBand& band, const SkySectors& sectors, std::vector<SkyVertex>& vertices) {
@@ -98,13 +71,13 @@ void add_moon(const MoonDisc& moon, const glm::vec3& colour, std::vector<SkyVert
 }  // namespace
 
 std::vector<SkyBand> sky_bands(const Sky& sky, bool hdr) {
-  if (!hdr) return bands_of_display(sky);
-  constexpr int kBands = 20;
+  constexpr int kBands = 28;
   const auto sine = [](int edge) { return static_cast<float>(edge * edge) / (kBands * kBands); };
+  const auto colour = [&](float at) {
+    return hdr ? shader::sky_luminance(sky.zenith(), at) : shown(sky, static_cast<double>(at));
+  };
   std::vector<SkyBand> bands;
-  for (int i = 0; i < kBands; ++i)
-    bands.push_back({sine(i), sine(i + 1), shader::sky_luminance(sky.zenith(), sine(i)),
-                     shader::sky_luminance(sky.zenith(), sine(i + 1))});
+  for (int i = 0; i < kBands; ++i) bands.push_back({sine(i), sine(i + 1), colour(sine(i)), colour(sine(i + 1))});
   return bands;
 }
 
@@ -155,9 +128,7 @@ glm::vec4 Sky::zenith() const {
 }
 
 SkyPass::SkyPass(gpu::Device& device)
-    : device_(device),
-      vertex_{gpu::make_shader(device, k_sky_vert), gpu::make_shader(device, k_sky_vert_flat)},
-      fragment_{gpu::make_shader(device, k_sky_frag), gpu::make_shader(device, k_sky_frag_flat)} {
+    : device_(device), vertex_(gpu::make_shader(device, k_sky_vert)), fragment_(gpu::make_shader(device, k_sky_frag)) {
   const vk::PushConstantRange push{
       .stageFlags = vk::ShaderStageFlagBits::eVertex, .offset = 0, .size = sizeof(shader::SkyConstants)};
   layout_ = vk::raii::PipelineLayout(
@@ -165,6 +136,8 @@ SkyPass::SkyPass(gpu::Device& device)
 }
 
 vk::ClearValue SkyPass::clear_value(const Sky& sky, LampOutput output, const ViewGeometry& view) {
+  if (output == LampOutput::kDifference || output == LampOutput::kRatio)  // neither is brighter where there is no light
+    return vk::ClearColorValue(std::array{0.0f, 0.0f, 0.0f, 1.0f});
   if (shows_lux(output)) return vk::ClearColorValue(std::array{0.0f, 0.0f, 0.1f, 1.0f});
   // Parallel rays have one direction, so one colour of sky.
   const double sine = is_parallel(view) ? view.camera().world_from_eye[0].z : 0.0;
@@ -206,8 +179,8 @@ void SkyPass::draw(gpu::Recorder& commands, const Sky& sky, const ViewGeometry& 
         vk::VertexInputAttributeDescription{
             .location = 1, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 12}};
     found = pipelines_
-                .emplace(key, make_pipeline(device_, {.vertex = *vertex_[hdr ? 0 : 1],
-                                                      .fragment = *fragment_[hdr ? 0 : 1],
+                .emplace(key, make_pipeline(device_, {.vertex = *vertex_,
+                                                      .fragment = *fragment_,
                                                       .constants = &constants,
                                                       .attributes = attributes,
                                                       .stride = sizeof(SkyVertex),

@@ -1,8 +1,8 @@
 // The sky behind everything: a clear colour below the horizon, bands of elevation above it, drawn first within the lit
 // pass. A view that sees no sky draws none.
 //
-// What is shown at once has a band for each step of 8 bits: all that a display tells apart, and a pixel costs no more
-// than writing it. An HDR image blends from edge to edge of even bands instead.
+// It blends from edge to edge of each band; what is shown at once is dithered (shaders/lib/tone.h), for its gradient is
+// so slow that steps of 8 bits would be seen.
 #pragma once
 
 #include <array>
@@ -48,9 +48,7 @@ struct SkyBand {
   glm::vec3 colour_low{0.0f}, colour_high{0.0f};
 };
 
-/// From the horizon to the zenith. Display: signals 0 to 1, a band for each of 8 bits in the channel that changes most;
-/// the others are rounded in its middle, so all are within one step. HDR: cd/m², 20 bands, closer to one another at the
-/// horizon, where the sky changes fastest: within 0.4 % of the formula.
+/// From the horizon to the zenith, 28 bands, closer to one another at the horizon. Display: signals 0 to 1; HDR: cd/m².
 std::vector<SkyBand> sky_bands(const Sky& sky, bool hdr);
 
 /// What of the dome a view sees: sectors of at most 22.5°, whose straight edges rise above their circle by a fiftieth
@@ -86,7 +84,7 @@ class SkyPass {
 
   gpu::Device& device_;
   vk::raii::PipelineLayout layout_{nullptr};
-  std::array<vk::raii::ShaderModule, 2> vertex_, fragment_;  ///< blended, flat
+  vk::raii::ShaderModule vertex_, fragment_;
   std::map<std::tuple<LampOutput, vk::Format, vk::SampleCountFlagBits>, vk::raii::Pipeline> pipelines_;
   std::vector<Dome> domes_;
   /// Of all views of a frame, one after the other.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "visual/process/road_marks.h"
+
 namespace phare {
 namespace {
 
@@ -33,6 +35,7 @@ void ProbePlot::add(SimTime now, std::vector<std::optional<double>> lx) {
 
 void ProbePlot::draw(OverlayMarks& picture, std::size_t probes) const {
   if (rows_.empty()) return;
+  keep_clear(picture, {kBox.left_01, kBox.top_01, kBox.width_01, kBox.height_01});
   picture.boxes.push_back(kBox);
   constexpr double kEdge_01 = 0.012, kNames_01 = 0.095;
   const double left = kBox.left_01 + kEdge_01, width = kBox.width_01 - kEdge_01 - kNames_01;

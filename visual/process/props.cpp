@@ -74,11 +74,11 @@ RoadMarks wall_marks(const Wall& wall) {
   RoadMarks marks;
   for (int up = 0; up <= kUp_deg; up += kStep_deg) {
     marks.lines.push_back({{at(kAside_deg, up), at(-kAside_deg, up)}, up == 0 ? kInk : kFaint});
-    marks.labels.push_back({at(-kAside_deg, up), up == 0 ? "H-H" : fmt::format("{} U", up), kInk});
+    marks.labels.push_back({at(-kAside_deg - 1.2, up), up == 0 ? "H-H" : fmt::format("{} U", up), kInk});
   }
   for (int left = -kAside_deg; left <= kAside_deg; left += kStep_deg) {
     marks.lines.push_back({{at(left, foot_deg), at(left, kUp_deg)}, left == 0 ? kInk : kFaint});
-    marks.labels.push_back({at(left, kUp_deg + 0.4),
+    marks.labels.push_back({at(left, kUp_deg + 0.8),
                             left == 0 ? "V-V" : fmt::format("{} {}", std::abs(left), left > 0 ? "L" : "R"), kInk});
   }
   return marks;
