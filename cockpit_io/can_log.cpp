@@ -21,7 +21,44 @@ namespace {
 
 // Each frame as a line of candump; what went wrong as a comment that we look for.
 constexpr const char* kConverter = R"python(
-import re, sys
+import os, re, struct, sys
+from decimal import Decimal
+# An ASC log whose stamps count from the event above, of whatever kind; python-can takes each as counted from the begin.
+class AddedUp:
+    def __init__(self, path): self.lines, self.sum = open(path, errors="replace"), Decimal(0)
+    def __iter__(self): return self
+    def __next__(self):
+        line = next(self.lines)
+        event = re.match(r"\s*(\d+\.\d+)(?=\s)", line)
+        if not event: return re.sub(r"(timestamps\s+)relative", r"\1absolute", line, flags=re.I)
+        self.sum += Decimal(event[1])
+        return format(self.sum, "f") + line[event.end():]
+    def read(self): raise OSError("is read by lines")  # python-can takes for a file what has read and write
+    def write(self): raise OSError("is not written")
+    def close(self): self.lines.close()
+def is_relative(path):
+    if not path.lower().endswith(".asc"): return False
+    with open(path, errors="replace") as lines:
+        for line in lines:
+            if re.match(r"\s*\d+\.\d+\s", line): break
+            if re.match(r"\s*base\s+\w+\s+timestamps\s+relative", line, re.I): return True
+    return False
+# Of a BLF file that ends before its header or its last object says; python-can reads on to the end of what is there.
+def cut_off(path):
+    if not path.lower().endswith(".blf"): return ""
+    size = os.path.getsize(path)
+    with open(path, "rb") as file:
+        head = file.read(24)
+        if len(head) < 24: return ""
+        _, at, said = struct.unpack("<4sL8xQ", head)
+        if said > size: return "the file is cut off, %d of its %d bytes are there" % (size, said)
+        while at + 16 <= size:
+            file.seek(at)
+            mark, _, _, length, _ = struct.unpack("<4sHHLL", file.read(16))
+            if mark != b"LOBJ" or length < 16: break
+            if at + length > size: return "the file is cut off within its last %d bytes" % (size - at)
+            at += length + length % 4
+    return ""
 def line_of(m):
     channel = re.sub(r"\W", "", "can0" if m.channel is None else str(m.channel)) or "can0"
     if m.is_error_frame:
@@ -38,11 +75,13 @@ except ImportError:
     sys.exit()
 print("#with python-can " + can.__version__)
 try:
-    reader = can.LogReader(sys.argv[1])
+    path = sys.argv[1]
+    reader = can.ASCReader(AddedUp(path)) if is_relative(path) else can.LogReader(path)
     print("#with python-can " + can.__version__ + ", " + type(reader).__name__)
     for message in reader: print(line_of(message))
+    if cut_off(path): print("#failed " + cut_off(path))
 except BaseException as problem:
-    print("#failed " + " ".join((str(problem) or type(problem).__name__).split()))
+    print("#failed " + (cut_off(sys.argv[1]) or " ".join((str(problem) or type(problem).__name__).split())))
 )python";
 
 /// The Pythons to ask, in turn: the one that is named, or that of PATH and then that of Debian's package, which an
@@ -112,6 +151,8 @@ Result<CanLog> read_can_log(const std::filesystem::path& file) {
   const std::string with = remark(*out, "with"), failed = remark(*out, "failed");
   auto log = parse_candump(*out, file.string());
   if (!log) return Error{file.string(), with + ": " + (failed.empty() ? "holds no CAN frame" : failed)};
+  log->counts_frames = true;
+  for (std::size_t i = 0; i < log->entries.size(); ++i) log->entries[i].line = static_cast<int>(i) + 1;
   if (!failed.empty()) {
     ++log->broken_lines;
     log->problems.push_back({static_cast<int>(log->entries.size()) + 1, with + " breaks off here: " + failed});

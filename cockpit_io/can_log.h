@@ -2,7 +2,8 @@
 //
 // candump's own is read here (candump.h). Others are read by python-can, a program of its own that may be missing:
 // Vector ASC and BLF, PEAK TRC, and MF4 where it has asammdf (python-can 4.2 and newer). The kind is told by the ending
-// of the name. Python is $PHARE_PYTHON, else python3 in PATH.
+// of the name. Python is $PHARE_PYTHON, else python3 in PATH. Stamps of an ASC log that count from event to event are
+// added up here, and a BLF file that was cut off is told: python-can does neither.
 #pragma once
 
 #include <filesystem>

@@ -1,10 +1,16 @@
 #include "cockpit_io/candump.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cstdio>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "cockpit_io/can_frame.h"
 #include "cockpit_io/text_scanner.h"
@@ -85,20 +91,30 @@ std::optional<Error> read_data(std::string_view text, CanFrame& frame) {
   return std::nullopt;
 }
 
-}  // namespace
+/// "can0  123   [2]  11 22", with or without a stamp before it and "RX - -" in it.
+bool is_of_the_screen(std::string_view line) {
+  const std::size_t open = line.find(" ["), close = line.find(']', open);
+  if (line.find('#') < open || open == std::string_view::npos || close == std::string_view::npos) return false;
+  const std::string_view length = line.substr(open + 2, close - open - 2);
+  return !length.empty() && length.size() <= 2 &&
+         std::ranges::all_of(length, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
 
-Result<CandumpEntry> parse_candump_line(std::string_view line) {
+Result<CandumpEntry> read_line(std::string_view line, std::string_view& interface) {
   TextScanner scan(line);
   CandumpEntry entry;
+  const auto expected = [line](const char* what) {
+    return broken(is_of_the_screen(line) ? "is what candump shows on the screen; a log is what candump -l or -L writes"
+                                         : std::string("expected ") + what);
+  };
   const auto stamp_ns = stamp(scan);
-  if (!stamp_ns) return broken("expected a stamp such as (1700000000.123456)");
+  if (!stamp_ns) return expected("a stamp such as (1700000000.123456)");
   entry.stamp_ns = *stamp_ns;
-  const std::string_view interface = scan.token();
-  if (interface.empty() || interface.find('#') != std::string_view::npos)
-    return broken("expected an interface such as can0");
+  interface = scan.token();
+  if (interface.empty() || interface.find('#') != std::string_view::npos) return expected("an interface such as can0");
   const std::string_view text = scan.token();
   const std::size_t hash = text.find('#');
-  if (hash == std::string_view::npos) return broken("expected id#data");
+  if (hash == std::string_view::npos) return expected("id#data");
   const std::string_view direction = scan.token();
   if ((!direction.empty() && direction != "R" && direction != "T") || !scan.at_end()) {
     return broken("more behind the data than R or T");
@@ -124,9 +140,72 @@ Result<CandumpEntry> parse_candump_line(std::string_view line) {
   return entry;
 }
 
+std::uint64_t count_backward_stamps(const std::vector<CandumpEntry>& entries) {
+  std::uint64_t count = 0;
+  for (std::size_t i = 1; i < entries.size(); ++i) count += entries[i].stamp_ns < entries[i - 1].stamp_ns ? 1u : 0u;
+  return count;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string all;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    all += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return all;
+}
+
+/// What goes back first, and how often.
+std::string backward_doubt(const CandumpLog& log) {
+  std::size_t first = 1;
+  while (log.entries[first].stamp_ns >= log.entries[first - 1].stamp_ns) ++first;
+  const CandumpEntry& entry = log.entries[first];
+  char by_s[40];
+  std::snprintf(by_s, sizeof by_s, "%.6f",
+                static_cast<double>(log.entries[first - 1].stamp_ns - entry.stamp_ns) * 1e-9);
+  const std::string line = std::to_string(entry.line);
+  return log.file.string() + (log.counts_frames ? ": frame " + line : ":" + line) + ": the stamp goes back by " + by_s +
+         " s, " +
+         (log.backward_stamps == 1 ? "the only one that does"
+                                   : "the first of " + std::to_string(log.backward_stamps) + " that do") +
+         "; frames are taken at once until the stamps have caught up";
+}
+
+/// The interfaces from which the same ids come.
+std::string mixed_doubt(const CandumpLog& log) {
+  using Id = std::pair<std::uint32_t, bool>;
+  std::map<Id, std::uint32_t> first;
+  std::set<Id> shared;
+  std::set<std::uint32_t> mixed;
+  std::optional<Id> example;
+  for (const CandumpEntry& entry : log.entries) {
+    if (entry.frame.error) continue;
+    const Id id{entry.frame.id, entry.frame.extended};
+    const auto [known, added] = first.try_emplace(id, entry.interface);
+    if (added || known->second == entry.interface) continue;
+    if (!example) example = id;
+    shared.insert(id);
+    mixed.insert({known->second, entry.interface});
+  }
+  if (!example) return {};
+  std::vector<std::string> names;
+  for (const std::uint32_t i : mixed) names.push_back(log.interfaces[i]);
+  char id[16];
+  std::snprintf(id, sizeof id, example->second ? "%08X" : "%03X", example->first);
+  return log.file.string() + ": id " + id +
+         (shared.size() > 1 ? " and " + std::to_string(shared.size() - 1) + " more" : "") + " from several buses (" +
+         listed(names) + "), which are mixed; --interface, or interface in the cockpit file, chooses one";
+}
+
+}  // namespace
+
+Result<CandumpEntry> parse_candump_line(std::string_view line) {
+  std::string_view interface;
+  return read_line(line, interface);
+}
+
 Result<CandumpLog> parse_candump(std::string_view text, const std::string& name) {
   CandumpLog log;
   log.file = name;
+  std::map<std::string, std::uint32_t, std::less<>> interfaces;
   int line_number = 0;
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
@@ -135,7 +214,8 @@ Result<CandumpLog> parse_candump(std::string_view text, const std::string& name)
     ++line_number;
     TextScanner scan(line);
     if (scan.at_end() || scan.rest().front() == '#') continue;
-    Result<CandumpEntry> entry = parse_candump_line(line);
+    std::string_view interface;
+    Result<CandumpEntry> entry = read_line(line, interface);
     if (!entry) {
       const std::string cut = end == std::string_view::npos ? ", and the log ends within the line" : "";
       if (log.problems.size() < CandumpLog::kProblemsKept)
@@ -143,9 +223,16 @@ Result<CandumpLog> parse_candump(std::string_view text, const std::string& name)
       ++log.broken_lines;
       continue;
     }
-    if (!log.entries.empty() && entry->stamp_ns < log.entries.back().stamp_ns) ++log.backward_stamps;
+    auto known = interfaces.find(interface);
+    if (known == interfaces.end()) {
+      known = interfaces.emplace(interface, static_cast<std::uint32_t>(log.interfaces.size())).first;
+      log.interfaces.emplace_back(interface);
+    }
+    entry->interface = known->second;
+    entry->line = line_number;
     log.entries.push_back(*entry);
   }
+  log.backward_stamps = count_backward_stamps(log.entries);
   if (log.entries.empty()) {
     if (log.problems.empty()) return Error{name, "is empty: no CAN frame in it"};
     return Error{name + ":" + std::to_string(log.problems.front().line),
@@ -160,6 +247,33 @@ Result<CandumpLog> read_candump(const std::filesystem::path& file) {
   if (!stream) return Error{file.string(), "cannot be read"};
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   return parse_candump(text, file.string());
+}
+
+Result<std::string> choose_interface(CandumpLog& log, const std::string& named, bool must_be_there) {
+  const auto found = std::ranges::find(log.interfaces, named);
+  const bool several = log.interfaces.size() > 1;
+  if (named.empty()) return std::string();
+  if (found == log.interfaces.end()) {
+    const std::string reason = "no frame comes from " + named + ", but from " + listed(log.interfaces);
+    if (must_be_there) return Error{log.file.string(), reason};
+    return several ? log.file.string() + ": " + reason + ": all of them are taken" : std::string();
+  }
+  if (!several) return std::string();
+  const auto kept = static_cast<std::uint32_t>(found - log.interfaces.begin());
+  std::erase_if(log.entries, [kept](const CandumpEntry& entry) { return entry.interface != kept; });
+  for (CandumpEntry& entry : log.entries) entry.interface = 0;
+  std::vector<std::string> others = std::exchange(log.interfaces, {named});
+  std::erase(others, named);
+  log.backward_stamps = count_backward_stamps(log.entries);
+  return log.file.string() + ": only the frames of " + named + " are taken, not those of " + listed(others);
+}
+
+std::vector<std::string> doubts(const CandumpLog& log) {
+  std::vector<std::string> lines;
+  if (log.backward_stamps > 0) lines.push_back(backward_doubt(log));
+  if (log.interfaces.size() > 1) lines.push_back(mixed_doubt(log));
+  std::erase(lines, "");
+  return lines;
 }
 
 }  // namespace phare

@@ -1,6 +1,6 @@
 #include "cockpit_io/dbc_lines.h"
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "cockpit_io/text_scanner.h"
@@ -10,6 +10,14 @@ namespace {
 
 bool looks_like_signal(TextScanner scan) {
   return !scan.loose_word().empty() && scan.rest().find('@') != std::string_view::npos;
+}
+
+/// Double quotes that begin or end a text: those behind a backslash are of the text.
+std::size_t quotes(std::string_view text) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '"' && (i == 0 || text[i - 1] != '\\')) ++count;
+  return count;
 }
 
 }  // namespace
@@ -25,7 +33,6 @@ bool DbcLines::next() {
 
 DbcLines::Statement DbcLines::to_its_end(std::string_view keyword) {
   Statement statement{std::string(text_), {}};
-  const auto quotes = [](std::string_view text) { return std::count(text.begin(), text.end(), '"'); };
   bool in_text = quotes(text_) % 2 == 1;
   const bool ends_by_line = keyword == "VERSION" || keyword == "BU_" || keyword == "BS_";
   const auto ended = [](std::string_view text) {

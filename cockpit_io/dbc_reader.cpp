@@ -27,6 +27,13 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
+/// A text in quotes without the backslashes that its quotes have.
+std::string plain(std::string_view quoted) {
+  std::string text(quoted);
+  for (std::size_t at = 0; (at = text.find("\\\"", at)) != std::string::npos; ++at) text.erase(at, 1);
+  return text;
+}
+
 /// Reads a DBC file statement by statement.
 class Parser {
  public:
@@ -36,6 +43,7 @@ class Parser {
     while (lines_.next()) statement();
     hang_multiplexors(dbc_);
     lengthen_names();
+    tell_same_names();
   }
 
  private:
@@ -128,7 +136,7 @@ class Parser {
     if (!scan.take(':')) return problem(s.name, "expected \":\" after the signal's name");
     if (!layout(scan, s) || !scaling(scan, s)) return;
     if (const auto unit = scan.quoted()) {
-      s.unit = *unit;
+      s.unit = plain(*unit);
     } else {
       return problem(s.name, "expected the unit in quotes");
     }
@@ -243,7 +251,11 @@ class Parser {
         problem(of, "expected a number and a name in quotes; the names before it are kept");
         break;
       }
-      all[*value] = *name;
+      const auto [known, added] = all.try_emplace(*value);
+      if (!added)
+        problem(of, "names the value " + std::to_string(*value) + " twice, \"" + known->second + "\" and \"" +
+                        plain(*name) + "\"; the second is used");
+      known->second = plain(*name);
     }
     return all;
   }
@@ -251,6 +263,7 @@ class Parser {
   void value_names(TextScanner& scan) {
     DbcSignal* s = named_signal(scan);
     if (s == nullptr) return;
+    if (!s->value_names.empty()) problem(s->name, "has value names already; those of this line are used");
     TextScanner table(scan.rest());
     if (const auto known = tables_.find(std::string(table.loose_word())); known != tables_.end()) {
       s->value_names = known->second;
@@ -289,11 +302,11 @@ class Parser {
       if (name.empty()) return problem({}, "expected the signal's name before its comment");
       DbcSignal* s = signal_of(m, name);
       const auto text = scan.quoted();
-      if (s != nullptr && text) s->comment = *text;
+      if (s != nullptr && text) s->comment = plain(*text);
     } else if (of == "BO_") {
       DbcMessage* m = named_message(scan);
       const auto text = scan.quoted();
-      if (m != nullptr && text) m->comment = *text;
+      if (m != nullptr && text) m->comment = plain(*text);
     }
   }
 
@@ -351,6 +364,20 @@ class Parser {
       for (DbcSignal& below : m.signals) {
         if (below.multiplexor == renamed.name) below.multiplexor = renamed.symbol;
       }
+    }
+  }
+
+  /// At the end, because a long name may be all that tells two messages apart.
+  void tell_same_names() {
+    std::map<std::string_view, int> lines;
+    for (const DbcMessage& m : dbc_.messages) {
+      const auto [first, added] = lines.try_emplace(m.name, m.line);
+      if (!added)
+        dbc_.problems.push_back({m.line,
+                                 m.name,
+                                 {},
+                                 "the message of line " + std::to_string(first->second) +
+                                     " has this name too; by the name that one is found, by its id this one"});
     }
   }
 

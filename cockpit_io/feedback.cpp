@@ -51,15 +51,64 @@ double value_of(SendValue value, const FeedbackValues& v) {
   return 0.0;
 }
 
-/// Writes the value, or the nearest that fits: a speed backwards in an unsigned signal is 0.
-void write(const DbcMessage& message, const DbcSignal& s, double value, CanFrame& frame) {
-  if (encode(message, s, value, frame) || s.type == DbcSignal::Type::kFloat || s.type == DbcSignal::Type::kDouble)
-    return;
+struct Range {
+  double lowest = 0.0, highest = 1.0;
+};
+
+/// What a source says in a drive. Speeds to a motorway's and the wheel to a turn each way are chosen by eye: a signal
+/// that ends before is too small, and one that ends behind may still be.
+Range said(SendValue value) {
+  switch (value) {
+    case SendValue::kLightSwitch:
+      return {0.0, 3.0};
+    case SendValue::kSpeedKmh:
+      return {0.0, 130.0};
+    case SendValue::kSpeedMps:
+      return {0.0, 36.0};
+    case SendValue::kSteeringDeg:
+      return {-360.0, 360.0};
+    case SendValue::kOne:
+      return {1.0, 1.0};
+    default:
+      return {};  // a telltale; a rig has two designs and more
+  }
+}
+
+bool has_every_number(const DbcSignal& s) {
+  return s.type == DbcSignal::Type::kFloat || s.type == DbcSignal::Type::kDouble;
+}
+
+/// What the bits of a whole number hold.
+Range held(const DbcSignal& s) {
   const bool is_signed = s.type == DbcSignal::Type::kSigned;
   const double end = std::ldexp(1.0, static_cast<int>(s.length_bits) - (is_signed ? 1 : 0));
   const double first = (is_signed ? -end : 0.0) * s.factor + s.offset;
   const double last = (end - 1.0) * s.factor + s.offset;
-  encode(message, s, std::clamp(value, std::min(first, last), std::max(first, last)), frame);
+  return {std::min(first, last), std::max(first, last)};
+}
+
+/// Writes the value, or the nearest that fits: a speed backwards in an unsigned signal is 0.
+void write(const DbcMessage& message, const DbcSignal& s, double value, CanFrame& frame) {
+  if (encode(message, s, value, frame) || has_every_number(s)) return;
+  const Range range = held(s);
+  encode(message, s, std::clamp(value, range.lowest, range.highest), frame);
+}
+
+/// Why a signal cannot say what its source does; empty: it can.
+std::string doubt(const DbcSignal& s, SendValue value) {
+  const Range source = said(value);
+  const auto span = [](const Range& r) { return physical_text(r.lowest) + " to " + physical_text(r.highest); };
+  const auto lacks = [&](const Range& r) {
+    const double rounding = 0.5 * std::abs(s.factor);
+    return source.lowest < r.lowest - rounding || source.highest > r.highest + rounding;
+  };
+  const std::string says = std::string(kSendValueNames[static_cast<std::size_t>(value)]) + " is " +
+                           (source.lowest < source.highest ? span(source) : physical_text(source.lowest)) + ", ";
+  if (!has_every_number(s) && lacks(held(s)))
+    return says + "the bits of \"" + s.name + "\" hold " + span(held(s)) + "; beyond, the nearest of these is sent";
+  if (const Range written{s.minimum, s.maximum}; s.minimum < s.maximum && lacks(written))
+    return says + "the DBC file says that \"" + s.name + "\" is " + span(written);
+  return {};
 }
 
 /// Whether something a driver would see at once has changed; speed and steering wait for the period.
@@ -68,6 +117,19 @@ bool must_not_wait(const FeedbackValues& a, const FeedbackValues& b) {
 }
 
 }  // namespace
+
+std::vector<std::string> send_doubts(const CockpitConfig& config, const Dbc& dbc) {
+  std::vector<std::string> lines;
+  for (const SendMessage& send : config.sends) {
+    const DbcMessage* message = dbc.find(send.message);
+    for (const SendSignal& signal : send.signals) {
+      const DbcSignal* found = message == nullptr ? nullptr : message->find(signal.signal);
+      const std::string why = found == nullptr ? std::string() : doubt(*found, signal.value);
+      if (!why.empty()) lines.push_back(signal.place + ": " + why);
+    }
+  }
+  return lines;
+}
 
 Result<Feedback> Feedback::bind(const CockpitConfig& config, const Dbc& dbc) {
   Feedback feedback;

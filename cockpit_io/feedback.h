@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cockpit_io/can_frame.h"
@@ -22,6 +23,9 @@ struct FeedbackValues {
   double speed_mps = 0.0;
   double steering_wheel_rad = 0.0;
 };
+
+/// What is doubtful about what is sent, "file:line: …" each: signals that do not hold what their source says.
+std::vector<std::string> send_doubts(const CockpitConfig& config, const Dbc& dbc);
 
 class Feedback {
  public:

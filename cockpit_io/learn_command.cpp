@@ -39,14 +39,18 @@ double seconds_since(Clock::time_point start) {
 }
 
 int learn_from_log(const LearnOptions& options, Learner learner) {
-  const Result<CanLog> read = read_can_log(options.log_file);
+  Result<CanLog> read = read_can_log(options.log_file);
   if (!read) return fail("phare-cockpit", read.error());
-  const CandumpLog* const log = &read->log;
+  CandumpLog* const log = &read->log;
   if (log->broken_lines > 0) {
     std::fprintf(stderr, "%s:%d: %s; %llu broken lines, the rest is used\n", options.log_file.c_str(),
                  log->problems.front().line, log->problems.front().reason.c_str(),
                  static_cast<unsigned long long>(log->broken_lines));
   }
+  const auto chosen = choose_interface(*log, options.interface, true);
+  if (!chosen) return fail("phare-cockpit", chosen.error());
+  if (!chosen->empty()) std::fprintf(stderr, "%s\n", chosen->c_str());
+  for (const std::string& doubt : doubts(*log)) std::fprintf(stderr, "%s\n", doubt.c_str());
   for (const CandumpEntry& entry : log->entries) {
     show(learner.take(entry.frame, entry.stamp_ns - log->entries.front().stamp_ns));
   }

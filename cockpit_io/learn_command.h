@@ -9,7 +9,7 @@
 namespace phare {
 
 struct LearnOptions {
-  std::string interface;           ///< a CAN interface, or
+  std::string interface;           ///< a CAN interface; with a log the one whose frames are taken
   std::filesystem::path log_file;  ///< a candump log
   std::filesystem::path dbc_file;  ///< may be empty: bits
   bool gamepad = false;            ///< the axes and buttons of a gamepad instead

@@ -43,7 +43,7 @@ Status check_used(const Options& options, const CockpitConfig& config) {
       "means nothing to the source \"" + std::string(kSourceKindNames[static_cast<std::size_t>(config.source)]) + "\"";
   const bool bus = config.source == SourceKind::kCan, log = config.source == SourceKind::kLog;
   if (!options.dbc_file.empty() && !bus && !log) return Error{"--dbc " + options.dbc_file, source};
-  if (!options.interface.empty() && !bus) return Error{"--interface " + options.interface, source};
+  if (!options.interface.empty() && !bus && !log) return Error{"--interface " + options.interface, source};
   if (options.log_speed > 0.0 && !log) return Error{"--log-speed", source};
   return Done{};
 }
@@ -66,6 +66,7 @@ Result<CockpitConfig> configure(const Rig& rig, const Options& options) {
     config->source = static_cast<SourceKind>(named - kSourceKindNames.begin());
   }
   if (!options.interface.empty()) config->interface = options.interface;
+  config->interface_is_asked = !options.interface.empty();
   if (config->source == SourceKind::kCan && config->interface.empty()) {
     return Error{config->file.string(),
                  "names no CAN interface: it needs [source] kind = \"can\" and interface = \"can0\""};
@@ -112,7 +113,8 @@ int run(int argc, char** argv) {
   auto* learn_flag =
       app.add_flag("--learn", options.learn,
                    "Show which signals change while the stalk is moved; with --interface or --log, and --dbc");
-  app.add_option("--interface", options.interface, "CAN interface (default: the cockpit file's)");
+  app.add_option("--interface", options.interface,
+                 "CAN interface, of a log the one whose frames to take (default: the cockpit file's)");
   app.add_flag("--gamepad", options.gamepad, "With --learn: the axes and buttons of a gamepad")->needs(learn_flag);
   app.add_option("--rest", options.rest_s, "With --learn: seconds in which nobody touches anything")
       ->check(number_within(0.0, 600.0))

@@ -9,6 +9,7 @@
 #include "cockpit_io/combined_source.h"
 #include "cockpit_io/drive_source.h"
 #include "cockpit_io/driver_source.h"
+#include "cockpit_io/feedback.h"
 #include "cockpit_io/gamepad_source.h"
 #include "cockpit_io/keyboard_source.h"
 #include "cockpit_io/log_source.h"
@@ -42,6 +43,10 @@ Result<std::unique_ptr<Source>> open_log(const CockpitConfig& config) {
     spdlog::warn("{}:{}: {}; {} broken lines, the rest is used", config.input_file.string(), first.line, first.reason,
                  log->broken_lines);
   }
+  const auto chosen = choose_interface(*log, config.interface, config.interface_is_asked);
+  if (!chosen) return chosen.error();
+  if (!chosen->empty()) spdlog::warn("{}", *chosen);
+  for (const std::string& doubt : doubts(*log)) spdlog::warn("{}", doubt);
   Result<SignalMap> map = read_signals(config, 0);
   if (!map) return map.error();
   return std::unique_ptr<Source>(std::make_unique<LogSource>(std::move(*log), std::move(*map)));
@@ -69,6 +74,7 @@ Result<std::unique_ptr<Source>> open_one(const CockpitConfig& config) {
       if (!map) return map.error();
       Result<Feedback> feedback = Feedback::bind(config, map->dbc());
       if (!feedback) return feedback.error();
+      for (const std::string& doubt : send_doubts(config, map->dbc())) spdlog::warn("{}", doubt);
       return CanSource::open(config.interface, std::move(*map), std::move(*feedback));
     }
     case SourceKind::kLog:

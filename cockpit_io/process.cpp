@@ -94,8 +94,7 @@ Verbs CockpitProcess::verbs() {
   });
   verbs.on<RigControl::Seek>([this](const auto&) {
     if (!real_time_) return refused("seek: not in lockstep, where every frame follows the one before");
-    seek_ = true;
-    return accepted("");
+    return accepted("");  // the car may refuse; where it goes back, it is followed
   });
   verbs.on<RigControl::Design>([this](const RigControl::Design& design) {
     if (design.index >= std::max<std::size_t>(rig_.designs.size(), 1))
@@ -124,13 +123,13 @@ void CockpitProcess::take_source(std::unique_ptr<Source> source) {
   };
 }
 
-/// After a seek: what plays by simulated time is played again up to the new time.
+/// The car has gone back in time: what plays by simulated time is played again up to there.
 void CockpitProcess::begin_anew() {
-  seek_ = false;
   if (config_.source != SourceKind::kLog && config_.source != SourceKind::kDrive) return;
   Result<std::unique_ptr<Source>> source = open_source(config_);
   if (!source) return spdlog::warn("{}", source.error().text());
   take_source(std::move(*source));
+  before_ = Before{cockpit_.light_changes(), cockpit_.design_index(), design_by_hand_};
   cockpit_ = new_cockpit();
   newest_ = {};
 }
@@ -187,11 +186,13 @@ void CockpitProcess::go_on_with_design(Moment now) {
 
 // ---- real time
 
-/// Simulated time is the car's, carried on by the wall clock; it does not go back.
+/// Simulated time is the car's, carried on by the wall clock; it goes back where the car does.
 Moment CockpitProcess::now_in_real_time() {
   const WallTime wall = wall_now();
+  const auto* vehicle = bus_.newest<VehicleState>();
+  if (vehicle != nullptr && vehicle->sim_time < std::exchange(car_time_, vehicle->sim_time)) begin_anew();
   SimTime sim = newest_;
-  if (const auto* vehicle = bus_.newest<VehicleState>()) {
+  if (vehicle != nullptr) {
     const std::int64_t age_ns =
         std::clamp<std::int64_t>(wall.ns - vehicle->received.ns, 0, std::chrono::nanoseconds(kCoast).count());
     sim.ns = vehicle->sim_time.ns + age_ns;
@@ -276,7 +277,6 @@ void CockpitProcess::run_real_time(std::chrono::nanoseconds picture_within) {
     wait(std::min<std::chrono::nanoseconds>(pacer.left(), kLookEvery));
     bus_.poll();
     stats_once_a_second();
-    if (seek_) begin_anew();
     const Moment now = now_in_real_time();
     const auto* vehicle = bus_.newest<VehicleState>();
     evaluate(now, vehicle != nullptr ? &vehicle->value : nullptr);

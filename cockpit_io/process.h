@@ -77,7 +77,6 @@ class CockpitProcess {
   Verbs verbs_;
   ControlDesk desk_;
   bool paused_ = false;
-  bool seek_ = false;
   std::optional<std::uint32_t> wanted_design_;
   bool design_by_hand_ = false;  // somebody has chosen it, beside the source
   std::filesystem::path state_file_;
@@ -94,6 +93,7 @@ class CockpitProcess {
   Clock::time_point next_stats_{};
   Clock::time_point woken_{};  // by the source
   SimTime newest_;
+  SimTime car_time_;                     // of its newest message
   WallTime newest_stamp_;                // of all frames decoded
   std::vector<WallTime> unsent_stamps_;  // of frames decoded since the last datagram
   LatencyHistogram latency_;

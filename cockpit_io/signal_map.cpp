@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -15,7 +16,7 @@ namespace phare {
 namespace {
 
 /// Gives a named value its number.
-Status look_up(const Dbc& dbc, const DbcSignal& signal, const std::string& place, NamedValue& value) {
+Status look_up(const Dbc& dbc, const DbcSignal& signal, NamedValue& value) {
   std::vector<std::string> names;
   for (const auto& [raw, name] : signal.value_names) {
     if (name == value.name) {
@@ -25,38 +26,52 @@ Status look_up(const Dbc& dbc, const DbcSignal& signal, const std::string& place
     names.push_back(name);
   }
   if (names.empty()) {
-    return Error{place, "signal \"" + signal.name + "\" has no value names (VAL_) in " + dbc.file.filename().string() +
-                            "; write the number that means \"" + value.name + "\""};
+    return Error{value.place, "signal \"" + signal.name + "\" has no value names (VAL_) in " +
+                                  dbc.file.filename().string() + "; write the number that means \"" + value.name +
+                                  "\""};
   }
-  return Error{place, unknown_name_reason("value", value.name, names) + " (of signal " + signal.name + ")"};
+  return Error{value.place, unknown_name_reason("value", value.name, names) + " (of signal " + signal.name + ")"};
 }
 
 /// Gives a number the very value that the signal is decoded to: written 0.3, where the factor is 0.1, it is 3 × 0.1.
-Status settle(const DbcSignal& signal, const std::string& place, NamedValue& value) {
+Status settle(const DbcSignal& signal, NamedValue& value) {
   const auto nearest = nearest_value(signal, value.value);
   const bool real = signal.type == DbcSignal::Type::kFloat || signal.type == DbcSignal::Type::kDouble;
   // Of a step: a number in a file has as many digits as somebody wrote.
   const double written_to = 1e-9 * (std::abs(signal.factor) + std::abs(value.value));
   if (!nearest || (!real && std::abs(*nearest - value.value) > written_to))
-    return Error{place, "signal \"" + signal.name + "\" never is " + physical_text(value.value) +
-                            (nearest ? "; next to it is " + physical_text(*nearest)
-                                     : ": it has " + std::to_string(signal.length_bits) + " bits")};
+    return Error{value.place, "signal \"" + signal.name + "\" never is " + physical_text(value.value) +
+                                  (nearest ? "; next to it is " + physical_text(*nearest)
+                                           : ": it has " + std::to_string(signal.length_bits) + " bits")};
   value.value = *nearest;
   return Done{};
 }
 
-/// What the mapping compares with the signal: names become numbers, and numbers values that the signal has.
+/// Does a DBC file call a value so where there is none: "SNA", "LIGHT_SNA", "INVALID", "Signal not available"?
+bool names_no_value(std::string name) {
+  for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c == ' ' || c == '-' ? '_' : c;
+  return std::ranges::any_of(std::array{"SNA", "INVALID", "NOT_AVAILABLE", "UNAVAILABLE", "NOT_VALID"},
+                             [&](const std::string& last) { return name == last || name.ends_with("_" + last); });
+}
+
+/// What the mapping compares with the signal: names become numbers, and numbers values that the signal has. Values that
+/// the DBC file names so mean nothing, unless the mapping says what they mean or has the signal elsewhere.
 Status look_up_all(const Dbc& dbc, const DbcSignal& signal, ControlMapping& mapping) {
   std::vector<NamedValue*> values;
   for (SignalLevel& level : mapping.levels) values.push_back(&level.when);
   for (NamedValue& value : mapping.on) values.push_back(&value);
+  for (NamedValue& value : mapping.invalid) values.push_back(&value);
   const bool alone = mapping.fine_signal.empty() && mapping.sign_signal.empty();
   for (NamedValue* value : values) {
     const bool named = !value->name.empty();
-    const Status status = named   ? look_up(dbc, signal, mapping.place, *value)
-                          : alone ? settle(signal, mapping.place, *value)
-                                  : Status(Done{});
+    const Status status = named ? look_up(dbc, signal, *value) : alone ? settle(signal, *value) : Status(Done{});
     if (!status) return status;
+  }
+  if (!mapping.bits.empty()) return Done{};
+  for (const auto& [raw, name] : signal.value_names) {
+    const double value = static_cast<double>(raw) * signal.factor + signal.offset;
+    const bool said = std::ranges::any_of(values, [&](const NamedValue* other) { return other->value == value; });
+    if (!said && names_no_value(name)) mapping.invalid.push_back({value, name});
   }
   return Done{};
 }
@@ -73,7 +88,7 @@ Result<DbcSignal> laid_out(const ControlMapping& mapping, const DbcMessage& mess
   const bool order = motorola || (at && scan.take('1'));
   const bool is_signed = order && scan.take('-');
   if (!order || (!is_signed && !scan.take('+')) || !scan.at_end())
-    return Error{mapping.place,
+    return Error{mapping.bits_place,
                  "bits \"" + mapping.bits + "\": expected start|length@order and sign, such as \"16|4@1+\""};
   DbcSignal laid = signal;
   laid.start_bit = *start;
@@ -83,8 +98,8 @@ Result<DbcSignal> laid_out(const ControlMapping& mapping, const DbcMessage& mess
   const bool fits =
       *length >= 1 && *length <= 64 && *start < 8 * message.length_bytes && bytes_needed(laid) <= message.length_bytes;
   if (!fits)
-    return Error{mapping.place, "bits \"" + mapping.bits + "\" do not fit message " + message.name + " of " +
-                                    std::to_string(message.length_bytes) + " bytes"};
+    return Error{mapping.bits_place, "bits \"" + mapping.bits + "\" do not fit message " + message.name + " of " +
+                                         std::to_string(message.length_bytes) + " bytes"};
   return laid;
 }
 
@@ -102,7 +117,7 @@ Result<SignalMap> SignalMap::bind(const CockpitConfig& config, Dbc dbc, std::int
     for (int i = 0; i < 2; ++i) {
       const std::string& name = i == 0 ? mapping.fine_signal : mapping.sign_signal;
       if (name.empty()) continue;
-      const auto found = find_signal(map.dbc_, dbc_message, name, mapping.place);
+      const auto found = find_signal(map.dbc_, dbc_message, name, i == 0 ? mapping.fine_place : mapping.sign_place);
       if (!found) return found.error();
       others[i] = *found;
     }
@@ -169,7 +184,9 @@ SignalMap::Taken SignalMap::take(const CanFrame& frame, std::int64_t at_ns, Driv
 }
 
 bool SignalMap::BoundControl::decides_beam() const {
-  return reader.mapping().control == Control::kLightSwitch || reader.mapping().control == Control::kBeamLever;
+  constexpr std::array kDecide{Control::kLightSwitch, Control::kBeamLever, Control::kPosition, Control::kLow,
+                               Control::kHigh};
+  return std::ranges::find(kDecide, reader.mapping().control) != kDecide.end();
 }
 
 SignalMap::Read SignalMap::read(BoundControl& control, const DbcMessage& message, const CanFrame& frame,
@@ -180,6 +197,8 @@ SignalMap::Read SignalMap::read(BoundControl& control, const DbcMessage& message
   if (!decoded && !signal.multiplexor.empty() && bytes_needed(signal) <= frame.length) return Read::kAbsent;
   if (!decoded) return Read::kUnfit;
   double value = *decoded;
+  const bool invalid = std::ranges::any_of(control.reader.mapping().invalid,
+                                           [&](const NamedValue& nothing) { return nothing.value == value; });
   if (control.fine_signal) {
     const auto fine = decode(message, message.signals[*control.fine_signal], frame);
     if (!fine) return Read::kUnfit;
@@ -190,13 +209,13 @@ SignalMap::Read SignalMap::read(BoundControl& control, const DbcMessage& message
     if (!sign) return Read::kUnfit;
     if (*sign != 0.0) value = -value;
   }
-  if (control.reader.take(value, at_ns, bits, input)) return Read::kRead;
+  if (!invalid && control.reader.take(value, at_ns, bits, input)) return Read::kRead;
   constexpr std::size_t kMostTold = 16;
   auto& told = control.unknown;
   if (told.size() < kMostTold && std::find(told.begin(), told.end(), value) == told.end()) {
     told.push_back(value);
-    spdlog::warn("{}: {} is {}, which none of its levels in the cockpit file means; the control stays as it was",
-                 message.name, signal.name, value);
+    spdlog::warn("{}: {} is {}, which {}; the control stays as it was", message.name, signal.name, value,
+                 invalid ? "means that there is no value" : "none of its levels in the cockpit file means");
   }
   return Read::kUnknown;
 }

@@ -74,11 +74,13 @@ class TextScanner {
     return value;
   }
 
-  /// What stands between two double quotes; nullopt when the next is no quote or the second is missing.
+  /// What stands between two double quotes, as it is written: a quote behind a backslash is of the text. nullopt when
+  /// the next is no quote or the second is missing.
   std::optional<std::string_view> quoted() {
     skip_space();
     if (rest_.empty() || rest_.front() != '"') return std::nullopt;
-    const std::size_t end = rest_.find('"', 1);
+    std::size_t end = rest_.find('"', 1);
+    while (end != std::string_view::npos && rest_[end - 1] == '\\') end = rest_.find('"', end + 1);
     if (end == std::string_view::npos) return std::nullopt;
     const std::string_view taken = rest_.substr(1, end - 1);
     rest_.remove_prefix(end + 1);

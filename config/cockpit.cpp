@@ -121,6 +121,7 @@ void read_source(TomlTable source, CockpitConfig& config) {
   const bool is_can = config.source == SourceKind::kCan;
   const bool is_log = config.source == SourceKind::kLog;
   if (is_can) config.interface = source.text("interface");
+  if (is_log) config.interface = source.text_or("interface", "");
   if (is_can && config.interface.size() > 15) source.fail("interface", "an interface's name has at most 15 letters");
   if (is_can || is_log) config.dbc_file = named_file(source, "dbc");
   if (is_log || config.source == SourceKind::kDrive || config.source == SourceKind::kDriver)

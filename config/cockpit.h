@@ -54,7 +54,8 @@ inline constexpr std::array<std::string_view, 24> kControlNames{
 /// A signal's value as the cockpit file writes it: physical, or a name of the DBC's VAL_ table.
 struct NamedValue {
   double value = 0.0;
-  std::string name;  ///< not empty: to be looked up
+  std::string name;     ///< not empty: to be looked up
+  std::string place{};  ///< "file:line" for messages
 };
 
 struct SignalLevel {
@@ -77,13 +78,14 @@ struct ControlMapping {
   std::optional<double> debounce_s;
   std::vector<SignalLevel> levels;       ///< light_switch, beam_lever, turn, gear
   LatchKind latch = LatchKind::kNone;    ///< beam_lever; of a flag anything but none: each press switches it over
+  std::vector<NamedValue> invalid;       ///< values of the signal that mean nothing: not available, an error
   std::vector<NamedValue> on;            ///< flags: the values that mean pressed; empty: anything but 0
   bool invert = false;                   ///< flags: pressed is released
   double scale = 1.0, offset_deg = 0.0;  ///< steering: signal * scale + offset, then degrees
   double lowest = 0.0, highest = 1.0;    ///< range: steering in degrees; pedals: signal values of 0 and 1
   double dead_zone = 0.0;       ///< steering: degrees on each side; pedals and the aim wheel: share of the range
   double lowest_aim_rad = 0.0;  ///< lamp_aim
-  std::string place, signal_place, message_place;  ///< "file:line" for messages
+  std::string place, signal_place, fine_place, sign_place, message_place, bits_place;  ///< "file:line" for messages
 };
 
 /// How a check is computed; docs/cockpit-file.md says each in a line.
@@ -174,7 +176,8 @@ struct SendMessage {
 struct CockpitConfig {
   std::filesystem::path file;
   SourceKind source = SourceKind::kKeyboard;
-  std::string interface;             ///< can
+  std::string interface;             ///< can; log: of one of several buses, the one that is played; may be empty
+  bool interface_is_asked = false;   ///< log: a flag gives it, so the log must have it; not of the file
   std::string device;                ///< gamepad: part of its name; empty: the first there is
   std::filesystem::path dbc_file;    ///< can, log; may be empty: then --dbc must give it
   std::filesystem::path input_file;  ///< log, drive, driver: their file; may be empty: then a flag must give it

@@ -60,9 +60,9 @@ std::vector<NamedValue> named_values(TomlTable& table, std::string_view key) {
   std::vector<NamedValue> values;
   for (const auto& value : table.values_or_empty(key)) {
     if (const auto* number = std::get_if<double>(&value)) {
-      values.push_back({*number, {}});
+      values.push_back({*number, {}, table.place(key)});
     } else {
-      values.push_back({0.0, std::get<std::string>(value)});
+      values.push_back({0.0, std::get<std::string>(value), table.place(key)});
       if (values.back().name.empty()) table.fail(key, "an empty name");
     }
   }
@@ -123,10 +123,14 @@ ControlMapping read_control(Control control, TomlTable table, double timeout_s, 
     mapping.message = table.text("message");
     mapping.signal = table.text("signal");
     mapping.bits = table.text_or("bits", "");
+    if (table.has("invalid")) mapping.invalid = named_values(table, "invalid");
     mapping.timeout_s = table.number_or("timeout_s", timeout_s, 0.001, kMostTimeout_s);
   }
   mapping.message_place = table.place("message");
   mapping.signal_place = table.place("signal");
+  mapping.fine_place = table.place("fine_signal");
+  mapping.sign_place = table.place("sign_signal");
+  mapping.bits_place = table.place("bits");
   if (const Levels levels = levels_of(control); !levels.empty()) {
     read_levels(table, levels, mapping);
     mapping.debounce_s = table.has("debounce_s") ? std::optional(table.number("debounce_s", 0.0, 1.0)) : std::nullopt;
@@ -139,6 +143,7 @@ ControlMapping read_control(Control control, TomlTable table, double timeout_s, 
     if (!gamepad) mapping.fine_signal = table.text_or("fine_signal", "");
     if (!gamepad) mapping.sign_signal = table.text_or("sign_signal", "");
     mapping.scale = table.number_or("scale", gamepad ? -450.0 : 1.0, -kAnyNumber, kAnyNumber);
+    if (mapping.scale == 0.0) table.fail("scale", "must not be 0, or the wheel stands still whatever the signal says");
     mapping.offset_deg = table.number_or("offset_deg", 0.0, -3600.0, 3600.0);
     mapping.dead_zone = table.number_or("dead_zone_deg", 0.0, 0.0, 90.0);
     const auto range = table.numbers_or("range_deg", kFull_deg);
@@ -147,6 +152,8 @@ ControlMapping read_control(Control control, TomlTable table, double timeout_s, 
     // The wire takes three turns to a side.
     if (!(range[0] < range[1]) || range[0] < -1080.0 || range[1] > 1080.0)
       table.fail("range_deg", "expected [lowest, highest] within -1080 and 1080");
+    else if (range[0] > 0.0 || range[1] < 0.0)
+      table.fail("range_deg", "must have 0 in it, or the wheel is never straight");
   } else if (is_pedal(control)) {
     if (!gamepad) mapping.fine_signal = table.text_or("fine_signal", "");
     read_range(table, mapping, "value when released, value when pressed");

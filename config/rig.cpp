@@ -371,7 +371,7 @@ Result<LampArgumentFile> lamp_argument_file(const std::string& text, const Error
 
 }  // namespace
 
-Result<LampConfig> parse_lamp_argument(const std::string& text) {
+Result<LampConfig> parse_lamp_argument(const std::string& text, const std::vector<std::string>& known_before) {
   static const std::vector<std::string> known{"x",        "y",          "z",      "yaw_deg", "pitch_deg",
                                               "roll_deg", "axis",       "c0_deg", "mirror",  "lamp_set",
                                               "emitter",  "distance_m", "scale"};
@@ -398,7 +398,11 @@ Result<LampConfig> parse_lamp_argument(const std::string& text) {
     const std::size_t equals = item.find('=');
     if (equals == std::string::npos) return wrong("expected key=value, got \"" + item + "\"");
     const std::string key = item.substr(0, equals), value = item.substr(equals + 1);
-    if (std::find(known.begin(), known.end(), key) == known.end()) return wrong(unknown_name_reason("key", key, known));
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      std::vector<std::string> all = known;
+      all.insert(all.end(), known_before.begin(), known_before.end());
+      return wrong(unknown_name_reason("key", key, all));
+    }
     if (!given.insert(key).second) return wrong("\"" + key + "\" is given twice");
     if (key == "axis") {
       if (value != "gamma0" && value != "gamma90")

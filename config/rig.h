@@ -187,6 +187,7 @@ std::vector<std::string> files_of(const Rig& rig);
 /// [,lamp_set=1][,emitter=1][,distance_m=25][,scale=1]
 /// FILE may be "-", standard input. It ends at the first ",word="; a name that holds such a thing stands in double
 /// quotes, a quote in it doubled.
-Result<LampConfig> parse_lamp_argument(const std::string& text);
+/// `known_before`: keys that the caller has read and taken out, for the message of one that is unknown.
+Result<LampConfig> parse_lamp_argument(const std::string& text, const std::vector<std::string>& known_before = {});
 
 }  // namespace phare

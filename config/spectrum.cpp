@@ -104,6 +104,9 @@ Result<glm::dvec2> read_spectrum_xy(const std::filesystem::path& file) {
       return Error{table->place(i), "wavelength_nm is more than 10 nm beyond the row before"};
     rows.push_back(row);
   }
+  if (rows.size() < 2)
+    return Error{file.string() + ":" + std::to_string(table->header_line()),
+                 "expected two rows or more below this line, between which power is linear"};
   const glm::dvec3 xyz = xyz_of_spectrum(rows);
   const double sum = xyz.x + xyz.y + xyz.z;
   if (!(sum > 0.0)) return Error{file.string(), "has no power within 360 to 830 nm"};

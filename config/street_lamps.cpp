@@ -18,6 +18,10 @@ LuminaireConfig luminaire_of(TomlTable table, const std::filesystem::path& file)
   luminaire.name = table.text("name");
   luminaire.file = resolve_path(table.text("file"), file);
   luminaire.scale = table.number_or("scale", 1.0, 1e-6, 1e6);
+  luminaire.c0_turn_deg = table.number_or("c0_deg", 0.0, -360.0, 360.0);
+  luminaire.mirror = table.flag_or("mirror", false);
+  luminaire.lamp_set = static_cast<std::size_t>(table.integer_or("lamp_set", 1, 1, 1000));
+  luminaire.emitter = static_cast<std::size_t>(table.integer_or("emitter", 1, 1, 1000));
   const LightColour colour = read_light_colour(table);
   luminaire.colour_temperature_k = colour.colour_temperature_k.value_or(luminaire.colour_temperature_k);
   luminaire.chromaticity_xy = colour.chromaticity_xy;

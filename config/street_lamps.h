@@ -20,6 +20,9 @@ struct LuminaireConfig {
   std::string name;
   std::filesystem::path file;  ///< type C, gamma 0 its axis; resolved
   double scale = 1.0;          ///< multiplies candela: dimming, maintenance factor
+  double c0_turn_deg = 0.0;    ///< 0: plane C 0 lies on the right of who looks to the street side; 90: on that side
+  bool mirror = false;         ///< the file is clockwise or mirrored: turn left and right round
+  std::size_t lamp_set = 1, emitter = 1;  ///< EULUMDAT, TM-33: which of the file's, from 1
   double colour_temperature_k = 4000.0;
   std::optional<glm::dvec2> chromaticity_xy{};  ///< CIE 1931; in place of the colour temperature
 };

@@ -285,9 +285,10 @@ void Bus::log_refusals() {
   for (std::size_t i = 1; i < kRefusals; ++i) {
     if (counters_.refused_because[i] > counters_.refused_because[main_reason]) main_reason = i;
   }
-  spdlog::warn("refused {} datagrams, {} in all ({} by the kernel; most of the others: {})",
-               counters_.refused - refused_logged_, counters_.refused, counters_.refused_in_kernel,
-               main_reason == 0 ? "none" : refusal_text(static_cast<Refusal>(main_reason)));
+  const std::string others =
+      main_reason == 0 ? "" : std::string("; most of the others: ") + refusal_text(static_cast<Refusal>(main_reason));
+  spdlog::warn("refused {} datagrams, {} in all ({} by the kernel{})", counters_.refused - refused_logged_,
+               counters_.refused, counters_.refused_in_kernel, others);
   refused_logged_ = counters_.refused;
   const std::uint64_t seconds = counters_.refused_because[static_cast<std::size_t>(Refusal::kSecond)];
   if (seconds != seconds_logged_)

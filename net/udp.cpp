@@ -57,6 +57,7 @@ struct UdpSocket::State {
   std::size_t next = 0;
   Endpoint from;
   ArrivalTime arrived, read;                                                            // of the one, and of its batch
+  bool hears_refusals = false;
   std::chrono::steady_clock::time_point seen_empty = std::chrono::steady_clock::now();  // nothing in it came earlier
 
   State() {
@@ -134,9 +135,23 @@ bool UdpSocket::send_to(const Endpoint& endpoint, std::span<const std::byte> byt
   to.sin_family = AF_INET;
   to.sin_addr.s_addr = htonl(endpoint.address);
   to.sin_port = htons(endpoint.port);
-  const ssize_t sent = sendto(state_->fd, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
-                              reinterpret_cast<const sockaddr*>(&to), sizeof to);
-  return sent == static_cast<ssize_t>(bytes.size());
+  const auto send = [&] {
+    return sendto(state_->fd, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
+                  reinterpret_cast<const sockaddr*>(&to), sizeof to);
+  };
+  ssize_t sent = send();
+  if (!state_->hears_refusals) return sent == static_cast<ssize_t>(bytes.size());
+  const bool refused_before = sent < 0 && errno == ECONNREFUSED;  // word of an earlier one; this was not sent
+  if (refused_before) sent = send();
+  int refusal = 0;
+  socklen_t size = sizeof refusal;
+  getsockopt(state_->fd, SOL_SOCKET, SO_ERROR, &refusal, &size);
+  return !refused_before && refusal == 0 && sent == static_cast<ssize_t>(bytes.size());
+}
+
+void UdpSocket::hear_refusals() {
+  const int on = 1;
+  state_->hears_refusals = setsockopt(state_->fd, IPPROTO_IP, IP_RECVERR, &on, sizeof on) == 0;
 }
 
 std::optional<std::span<const std::byte>> UdpSocket::receive() {

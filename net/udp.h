@@ -46,10 +46,14 @@ class UdpSocket {
   UdpSocket& operator=(UdpSocket&&) noexcept;
   ~UdpSocket();
 
-  /// False when the kernel refused.
+  /// False when the kernel refused; after hear_refusals() also where it says that nobody has that port.
   bool send_to(const Endpoint& to, std::span<const std::byte> bytes);
   /// To `port` at the socket's own address.
   bool send_to(std::uint16_t port, std::span<const std::byte> bytes);
+
+  /// Has the kernel keep word of ports that nobody has: on this machine of what was just sent, from others of what was
+  /// sent before. For sockets that only send, for receive() takes such word for an empty socket.
+  void hear_refusals();
 
   /// The next datagram, nullopt when none waits. The view is valid until the next call.
   std::optional<std::span<const std::byte>> receive();

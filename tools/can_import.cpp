@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <span>
+#include <string_view>
 
 #include "cockpit_io/can_log.h"
 #include "cockpit_io/dbc.h"
@@ -39,16 +41,50 @@ struct ImportControl {
   Samples samples;
 };
 
-double si_factor(const std::string& unit) {
-  if (unit == "km/h" || unit == "kph") return 1.0 / 3.6;
-  if (unit == "mph") return 0.44704;
-  if (unit == "deg") return kRadPerDeg;
-  if (unit == "%") return 0.01;
-  return 1.0;
+/// A spelling of a unit, in small letters, and what one of it is in SI.
+struct UnitName {
+  std::string_view name;
+  double factor;
+};
+constexpr double kKmh_mps = 1.0 / 3.6, kMph_mps = 0.44704, kKnot_mps = 1852.0 / 3600.0;
+constexpr UnitName kSpeedUnits[]{{"m/s", 1.0},         {"mps", 1.0},       {"unit_meterpersecon", 1.0},
+                                 {"km/h", kKmh_mps},   {"kph", kKmh_mps},  {"kmh", kKmh_mps},
+                                 {"km/hr", kKmh_mps},  {"kmph", kKmh_mps}, {"unit_kilometerperhour", kKmh_mps},
+                                 {"mph", kMph_mps},    {"mi/h", kMph_mps}, {"unit_mileperhour", kMph_mps},
+                                 {"knots", kKnot_mps}, {"kn", kKnot_mps},  {"kt", kKnot_mps},
+                                 {"cm/s", 0.01}};
+constexpr UnitName kAngleUnits[]{{"deg", kRadPerDeg},
+                                 {"degree", kRadPerDeg},
+                                 {"degrees", kRadPerDeg},
+                                 {"\xC2\xB0", kRadPerDeg},
+                                 {"\xB0", kRadPerDeg},
+                                 {"unit_degreofarc", kRadPerDeg},
+                                 {"rad", 1.0},
+                                 {"radian", 1.0},
+                                 {"radians", 1.0}};
+constexpr UnitName kShareUnits[]{{"%", 0.01}, {"percent", 0.01}, {"pct", 0.01}, {"unit_percent", 0.01},
+                                 {"", 1.0},   {"-", 1.0},        {"1", 1.0}};
+
+/// What a control is measured in; of flags nothing.
+struct ControlUnits {
+  std::string_view of{};  ///< "speed"
+  std::span<const UnitName> names{};
+  std::string_view option{};  ///< names the unit where the DBC file does not
+};
+constexpr ControlUnits kSpeedUnit{"speed", kSpeedUnits, "--speed-unit"},
+    kAngleUnit{"angle", kAngleUnits, "--steering-unit"}, kShareUnit{"share", kShareUnits, {}}, kNoUnit{};
+
+std::optional<double> si_factor(std::span<const UnitName> names, std::string unit) {
+  std::ranges::transform(unit, unit.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  const auto found = std::ranges::find(names, unit, &UnitName::name);
+  if (found == names.end()) return std::nullopt;
+  return found->factor;
 }
 
 /// Finds "MESSAGE.SIGNAL+MESSAGE.SIGNAL" in the DBC.
-Result<ImportControl> find_control(const Dbc& dbc, const std::string& what, const std::string& path) {
+Result<ImportControl> find_control(const Dbc& dbc, const std::string& what, const std::string& path,
+                                   const ControlUnits& units, const std::string& stated) {
   ImportControl control;
   control.what = what;
   for (std::size_t start = 0; start <= path.size();) {
@@ -67,9 +103,18 @@ Result<ImportControl> find_control(const Dbc& dbc, const std::string& what, cons
       return Error{dbc.file.string() + ":" + std::to_string(message->line),
                    "message " + message->name + " has no signal \"" + term.substr(dot + 1) + "\" for the " + what};
     }
+    const std::string& unit = stated.empty() ? signal->unit : stated;
+    const auto factor = units.names.empty() ? std::optional(1.0) : si_factor(units.names, unit);
+    if (!factor)
+      return Error{dbc.file.string() + ":" + std::to_string(signal->line),
+                   "signal " + signal->name + " for the " + what + ": its unit \"" + unit + "\" is no " +
+                       std::string(units.of) + " that is known" +
+                       (units.option.empty() ? "" : "; " + std::string(units.option) + " says which it is")};
+    if (control.message != nullptr && *factor != control.factor)
+      return Error{what, "signals of one unit only can be added"};
     control.message = message;
     control.signals.push_back(signal);
-    control.factor = si_factor(signal->unit);
+    control.factor = *factor;
   }
   return control;
 }
@@ -119,6 +164,42 @@ std::vector<CanId> ids_of(const std::optional<CockpitConfig>& cockpit, const Dbc
   return ids;
 }
 
+/// Error where the log's clock was set while it was written, or logs of different times stand in one file: a drive as
+/// long as the jump would come of it.
+Status one_recording(const CandumpLog& log) {
+  constexpr std::int64_t kLongestSilence_ns = 10'000'000'000, kFarthestBack_ns = 1'000'000'000;
+  for (std::size_t i = 1; i < log.entries.size(); ++i) {
+    const CandumpEntry &before = log.entries[i - 1], &after = log.entries[i];
+    const std::int64_t step_ns = after.stamp_ns - before.stamp_ns;
+    if (step_ns <= kLongestSilence_ns && step_ns >= -kFarthestBack_ns) continue;
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "stamped %.6f s, %.6f s before: the clock was set, or several logs are in one; cut it there",
+                  static_cast<double>(after.stamp_ns) * 1e-9, static_cast<double>(before.stamp_ns) * 1e-9);
+    return Error{log.file.string() + (log.counts_frames ? " frame " : ":") + std::to_string(after.line), text};
+  }
+  return Done{};
+}
+
+/// "speed: no sample for 2.01 s at 4.00 s; bridged", for the widest hole; empty: none of half a second.
+std::string widest_gap(const std::string& what, const std::vector<double>& t_s, double begin_s) {
+  constexpr double kGap_s = 0.5;
+  double widest_s = 0.0, at_s = 0.0;
+  std::size_t gaps = 0;
+  for (std::size_t i = 1; i < t_s.size(); ++i) {
+    const double gap_s = t_s[i] - t_s[i - 1];
+    gaps += gap_s > kGap_s ? 1 : 0;
+    if (gap_s <= widest_s) continue;
+    widest_s = gap_s;
+    at_s = t_s[i - 1] - begin_s;
+  }
+  if (gaps == 0 || 2 * gaps > t_s.size()) return {};  // so few that this is how often it comes
+  char text[160];
+  std::snprintf(text, sizeof text, ": no sample for %.2f s at %.2f s; bridged%s", widest_s, at_s,
+                gaps > 1 ? ", as other holes are" : "");
+  return what + text;
+}
+
 /// All that the stalk did besides the light switch, which is put where `light` says.
 void take_recorded_switches(const CockpitState& was, ImportLight light, CockpitState& to) {
   if (light == ImportLight::kAsRecorded) {
@@ -147,6 +228,10 @@ void take_recorded_switches(const CockpitState& was, ImportLight light, CockpitS
 Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
   auto read_log = read_can_log(options.can_log);
   if (!read_log) return read_log.error();
+  const bool asked = !options.interface.empty();
+  const auto chosen = choose_interface(
+      read_log->log, asked ? options.interface : options.cockpit ? options.cockpit->interface : "", asked);
+  if (!chosen) return chosen.error();
   const CandumpLog* const log = &read_log->log;
   auto dbc = read_dbc(options.dbc);
   if (!dbc) return dbc.error();
@@ -171,30 +256,40 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
 
   // Which signals: steering and speed must be there, the others may.
   enum { kSteering, kSpeed, kAccelerator, kBrake, kParking, kLow, kHigh, kControls };
-  const std::array<std::pair<const char*, const std::string*>, kControls> wanted{
-      {{"steering", &options.signals.steering},
-       {"speed", &options.signals.speed},
-       {"accelerator", &options.signals.accelerator},
-       {"brake", &options.signals.brake},
-       {"parking light", &options.signals.parking_light},
-       {"low beam", &options.signals.low_beam},
-       {"high beam", &options.signals.high_beam}}};
+  struct Wanted {
+    const char* what;
+    const std::string& path;
+    ControlUnits units;
+    std::string unit{};
+    bool must = false;  ///< else the drive goes without
+  };
+  const std::array<Wanted, kControls> wanted{
+      {{"steering", options.signals.steering, kAngleUnit, options.signals.steering_unit, true},
+       {"speed", options.signals.speed, kSpeedUnit, options.signals.speed_unit, true},
+       {"accelerator", options.signals.accelerator, kShareUnit, {}, options.signals.accelerator_must},
+       {"brake", options.signals.brake, kShareUnit, {}, options.signals.brake_must},
+       {"parking light", options.signals.parking_light, kNoUnit},
+       {"low beam", options.signals.low_beam, kNoUnit},
+       {"high beam", options.signals.high_beam, kNoUnit}}};
   ImportedDrive drive;
   std::vector<ImportControl> controls;
+  if (!chosen->empty()) drive.notes.push_back(*chosen);
+  for (const std::string& doubt : doubts(*log)) drive.notes.push_back(doubt);
   if (!read_log->read_with.empty()) drive.notes.push_back("log: read with " + read_log->read_with);
-  for (const auto& [what, path] : wanted) {
+  for (const auto& [what, path, units, unit, must] : wanted) {
     if (recorded && controls.size() != kSpeed) {  // the cockpit file names it
       controls.push_back({what, {}, nullptr, 1.0, {}});
       continue;
     }
-    auto control = find_control(*dbc, what, *path);
-    if (!control && controls.size() <= kSpeed) return control.error();
+    auto control = find_control(*dbc, what, path, units, unit);
+    if (!control && must) return control.error();
     if (!control) drive.notes.push_back(std::string(what) + ": " + control.error().text());
     controls.push_back(control ? std::move(*control) : ImportControl{what, {}, nullptr, 1.0, {}});
   }
 
   // Decode every frame within the time that log and pose share.
   ImportCounts& counts = drive.counts;
+  if (const Status one = one_recording(*log); !one) return one.error();
   const double log_begin_s = static_cast<double>(log->entries.front().stamp_ns) * 1e-9;
   const double log_end_s = static_cast<double>(log->entries.back().stamp_ns) * 1e-9;
   const double begin_s = pose ? std::max(log_begin_s, pose->t_s.front()) : log_begin_s;
@@ -219,7 +314,7 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
     const CanId id{entry.frame.id, entry.frame.extended};
     bool ours =
         std::ranges::any_of(by_cockpit, [&](const CanId& of) { return of.id == id.id && of.extended == id.extended; });
-    bool decoded = ours;
+    bool decoded = ours, repeated = false;
     for (ImportControl& control : controls) {
       if (control.message == nullptr || control.message->id != entry.frame.id ||
           control.message->extended != entry.frame.extended) {
@@ -227,15 +322,17 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
       }
       ours = true;
       Samples& samples = control.samples;
-      if (!samples.t_s.empty() && t_s <= samples.t_s.back())
-        continue;  // stamped backwards: order is the log's, not time's
+      if (!samples.t_s.empty() && t_s <= samples.t_s.back()) {
+        repeated = true;  // stamped backwards, or twice: order is the log's, not time's
+        continue;
+      }
       if (const auto value = decode_control(control, entry.frame)) {
         decoded = true;
         samples.t_s.push_back(t_s);
         samples.value.push_back(*value);
       }
     }
-    ++(decoded ? counts.used : ours ? counts.undecodable : counts.other_ids);
+    ++(decoded ? counts.used : repeated ? counts.repeated : ours ? counts.undecodable : counts.other_ids);
   }
   if (recorded) {
     controls[kSteering].samples = {recorded->steering_t_s, recorded->steering_rad};
@@ -256,6 +353,11 @@ Result<ImportedDrive> import_can_drive(const ImportOptions& options) {
       return Error{options.can_log.string(), "fewer than four frames" + of + " for the " + controls[i].what};
     }
   }
+  for (const std::size_t i : {std::size_t{kSteering}, std::size_t{kSpeed}})
+    if (const std::string gap = widest_gap(controls[i].what, controls[i].samples.t_s, begin_s); !gap.empty())
+      drive.notes.push_back(gap);
+  if (pose)
+    if (const std::string gap = widest_gap("pose", pose->t_s, begin_s); !gap.empty()) drive.notes.push_back(gap);
   const bool has_accelerator = recorded ? recorded->has_accelerator : counts.accelerator_samples > 0;
   const bool has_brake = recorded ? recorded->has_brake : counts.brake_samples > 0;
   if (!has_accelerator) drive.notes.push_back("accelerator: not in the log, 0");

@@ -36,10 +36,13 @@ struct ImportSignals {
   std::string parking_light = "LIGHT_STALK.PARKING_LIGHT";
   std::string low_beam = "LIGHT_STALK.LOW_BEAM";
   std::string high_beam = "LIGHT_STALK.HIGH_BEAM";
+  bool accelerator_must = false, brake_must = false;  ///< that it is not there is an error; else a note
+  std::string speed_unit{}, steering_unit{};          ///< in place of the DBC file's; empty: that
 };
 
 struct ImportOptions {
   std::filesystem::path can_log;
+  std::string interface {};  ///< of a log of several buses; empty: the cockpit file's, or all
   std::filesystem::path dbc;
   std::optional<CockpitConfig> cockpit{};  ///< names the controls in place of `signals`, but for the speed
   std::filesystem::path
@@ -53,7 +56,8 @@ struct ImportOptions {
   RoadSurface road;  ///< empty: height and grade from the lane
 };
 
-/// What became of every frame of the log: frames = used + other_ids + undecodable + outside, and what came out.
+/// What became of every frame of the log: frames = used + other_ids + undecodable + repeated + outside, and what came
+/// out.
 struct ImportCounts {
   std::uint64_t frames = 0;
   std::uint64_t broken_lines = 0;
@@ -61,6 +65,7 @@ struct ImportCounts {
   std::uint64_t used = 0;
   std::uint64_t other_ids = 0;    ///< hold no signal asked for
   std::uint64_t undecodable = 0;  ///< right id, but too short or no data frame
+  std::uint64_t repeated = 0;     ///< right id, but stamped no later than the one before
   std::uint64_t outside = 0;      ///< outside the time that log and pose share
   std::uint64_t refused = 0;      ///< of those used: by a check of the cockpit file
   std::uint64_t steering_samples = 0, speed_samples = 0, accelerator_samples = 0, brake_samples = 0, light_samples = 0;

@@ -7,23 +7,15 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <set>
 #include <utility>
 
-#include "cockpit_io/crc.h"
 #include "cockpit_io/feedback.h"
-#include "cockpit_io/message_check.h"
 #include "cockpit_io/signal_map.h"
 #include "config/formats/toml_table.h"
+#include "tools/value_text.h"
 
 namespace phare {
 namespace {
-
-std::string short_number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
-}
 
 std::string id_text(std::uint32_t id, bool extended) {
   char text[16];
@@ -107,95 +99,6 @@ bool is_steady(const std::string& name) {
   return name == "steering" || name == "accelerator" || name == "brake" || name == "clutch" || name == "parking_brake";
 }
 
-// ---- which check fits
-
-/// All different frames of one message.
-struct OfOneId {
-  CanId id;
-  std::vector<CanFrame> frames;
-};
-
-std::vector<OfOneId> different_frames(const CandumpLog& log) {
-  constexpr std::size_t kMost = 400;
-  std::map<std::pair<std::uint32_t, bool>, OfOneId> all;
-  for (const CandumpEntry& entry : log.entries) {
-    if (!entry.frame.carries_data() || entry.frame.length < 2) continue;
-    OfOneId& of = all[{entry.frame.id, entry.frame.extended}];
-    of.id = {entry.frame.id, entry.frame.extended};
-    const bool known = std::ranges::find(of.frames, entry.frame) != of.frames.end();
-    if (of.frames.size() < kMost && !known && (of.frames.empty() || of.frames[0].length == entry.frame.length))
-      of.frames.push_back(entry.frame);
-  }
-  std::vector<OfOneId> list;
-  for (auto& [id, of] : all) list.push_back(std::move(of));
-  return list;
-}
-
-/// A message with nothing but a check in `bits` bits from `start_bit` on.
-std::optional<MessageChecker> checker_for(CrcKind kind, std::uint32_t start_bit, std::uint32_t bits,
-                                          std::uint32_t length, std::vector<std::int64_t> data_ids) {
-  Dbc dbc;
-  DbcMessage message;
-  message.name = "M";
-  message.length_bytes = length;
-  DbcSignal crc;
-  crc.name = "CRC";
-  crc.start_bit = start_bit;
-  crc.length_bits = bits;
-  message.signals.push_back(crc);
-  MessageCheck check;
-  check.message = "M";
-  check.crc = "CRC";
-  check.crc_kind = kind;
-  check.data_ids = std::move(data_ids);
-  auto bound = MessageChecker::bind(check, dbc, message);
-  return bound ? std::optional(std::move(*bound)) : std::nullopt;
-}
-
-bool all_fit(MessageChecker& checker, const std::vector<CanFrame>& frames) {
-  return std::ranges::all_of(frames, [&](const CanFrame& frame) {
-    CanFrame made = frame;
-    checker.sign(made);
-    return made == frame;
-  });
-}
-
-/// CRC-8/AUTOSAR with a data id for each value of a counter (E2E profile 2): the ids, by the counter; empty: it is not.
-std::vector<std::int64_t> profile_2_ids(const std::vector<CanFrame>& frames, std::size_t crc_byte,
-                                        std::size_t counter_byte, bool high_nibble) {
-  std::array<std::optional<int>, 16> ids{};
-  std::array<int, 16> seen{};
-  for (const CanFrame& frame : frames) {
-    Crc before(kCrc8H2f);
-    for (std::size_t i = 0; i < frame.length; ++i)
-      if (i != crc_byte) before.add(frame.data[i]);
-    int fits = -1;  // the last byte of a CRC can be solved for: one id gives this value
-    for (int id = 0; id < 256 && fits < 0; ++id) {
-      Crc with = before;
-      with.add(static_cast<std::uint8_t>(id));
-      if (with.value() == frame.data[crc_byte]) fits = id;
-    }
-    const std::size_t counter = (frame.data[counter_byte] >> (high_nibble ? 4 : 0)) & 15u;
-    if (ids[counter] && ids[counter] != fits) return {};
-    ids[counter] = fits;
-    ++seen[counter];
-  }
-  std::vector<std::int64_t> all;
-  std::set<std::int64_t> different;
-  for (std::size_t counter = 0; counter < 16; ++counter) {
-    if (!ids[counter] || seen[counter] < 2) return {};
-    all.push_back(*ids[counter]);
-    different.insert(*ids[counter]);
-  }
-  return different.size() > 1 ? all : std::vector<std::int64_t>{};
-}
-
-std::string ids_text(const std::vector<std::int64_t>& ids) {
-  std::string text = "[";
-  for (const std::int64_t id : ids) text += (text.size() > 1 ? ", " : "") + std::to_string(id);
-  return text + "]";
-}
-
 }  // namespace
 
 void tell_problems(const Dbc& dbc, std::ostream& out) {
@@ -213,6 +116,7 @@ void tell_problems(const CandumpLog& log, std::ostream& out) {
   for (std::size_t i = 0; i < named; ++i)
     out << log.file.string() << ":" << log.problems[i].line << ": " << log.problems[i].reason << "\n";
   if (log.broken_lines > named) out << log.file.string() << ": and " << log.broken_lines - named << " more\n";
+  for (const std::string& doubt : doubts(log)) out << doubt << "\n";
 }
 
 void list_dbc(const Dbc& dbc, std::ostream& out) {
@@ -221,11 +125,14 @@ void list_dbc(const Dbc& dbc, std::ostream& out) {
         << (message.fd ? ", CAN FD" : "") << (message.comment.empty() ? "" : "  # " + message.comment) << "\n";
     for (const DbcSignal& s : message.signals) {
       out << "    " << s.name << "  " << s.start_bit << "|" << s.length_bits << "@" << (s.motorola ? "0" : "1")
-          << (s.type == DbcSignal::Type::kUnsigned ? "+" : "-");
+          << (s.type == DbcSignal::Type::kUnsigned ? "+" : "-")
+          << (s.type == DbcSignal::Type::kFloat    ? " float"
+              : s.type == DbcSignal::Type::kDouble ? " double"
+                                                   : "");
       if (s.factor != 1.0 || s.offset != 0.0)
-        out << "  * " << short_number(s.factor) << " + " << short_number(s.offset);
+        out << "  * " << shortest_text(s.factor) << " + " << shortest_text(s.offset);
       if (s.minimum != 0.0 || s.maximum != 0.0)
-        out << "  " << short_number(s.minimum) << " to " << short_number(s.maximum);
+        out << "  " << shortest_text(s.minimum) << " to " << shortest_text(s.maximum);
       if (!s.unit.empty()) out << " " << s.unit;
       if (s.is_multiplexor) out << "  multiplexor";
       if (!s.multiplexor.empty()) {
@@ -248,7 +155,8 @@ Status decode_log(const Dbc& dbc, const CandumpLog& log, const DecodeAsked& aske
         return dbc.find(entry.frame.id, entry.frame.extended) != nullptr;
       }))
     return Error{log.file.string(), "of its " + std::to_string(log.entries.size()) + " frames the DBC file knows none"};
-  if (asked.csv) out << "t_s,message,signal,value,unit,name\n";
+  const bool several = log.interfaces.size() > 1;
+  if (asked.csv) out << "t_s,message,signal,value,unit,name" << (several ? ",interface" : "") << "\n";
   for (const CandumpEntry& entry : log.entries) {
     const DbcMessage* message = dbc.find(entry.frame.id, entry.frame.extended);
     const auto of = message == nullptr ? chosen->end() : chosen->find(message);
@@ -261,15 +169,18 @@ Status decode_log(const Dbc& dbc, const CandumpLog& log, const DecodeAsked& aske
       const auto value = decode(*message, *signal, entry.frame);
       if (!value) continue;
       const std::string name = value_name(*signal, entry.frame);
+      const std::string number = value_text(*signal, raw_bits(*signal, entry.frame.bytes()).value_or(0), *value);
       if (asked.csv) {
-        out << stamp << "," << csv_field(message->name) << "," << csv_field(signal->name) << "," << short_number(*value)
-            << "," << csv_field(signal->unit) << "," << csv_field(name) << "\n";
+        out << stamp << "," << csv_field(message->name) << "," << csv_field(signal->name) << "," << number << ","
+            << csv_field(signal->unit) << "," << csv_field(name)
+            << (several ? "," + csv_field(log.interfaces[entry.interface]) : "") << "\n";
       } else {
-        line += "  " + signal->name + " " + short_number(*value) + (signal->unit.empty() ? "" : " " + signal->unit) +
+        line += "  " + signal->name + " " + number + (signal->unit.empty() ? "" : " " + signal->unit) +
                 (name.empty() ? "" : " \"" + name + "\"");
       }
     }
-    if (!line.empty()) out << stamp << " " << message->name << line << "\n";
+    if (!line.empty())
+      out << stamp << (several ? " " + log.interfaces[entry.interface] : "") << " " << message->name << line << "\n";
   }
   return Done{};
 }
@@ -337,56 +248,6 @@ Status check_cockpit(const CockpitConfig& config, const Dbc& dbc, const CandumpL
       << " too short or with a value that means nothing, " << bad_crc << " refused by their checksum, " << bad_counter
       << " by their counter, silent " << silences << " times\n";
   return Done{};
-}
-
-std::vector<CrcFound> find_crcs(const CandumpLog& log, std::size_t least) {
-  std::vector<CrcFound> found;
-  for (const OfOneId& of : different_frames(log)) {
-    if (of.frames.size() < least) continue;
-    const std::uint32_t length = of.frames[0].length;
-    const auto add = [&](const std::string& scheme, const std::string& where) {
-      found.push_back({of.id, of.frames.size(), scheme, where});
-    };
-    const auto try_kind = [&](CrcKind kind, std::uint32_t start_bit, std::uint32_t bits, const std::string& where,
-                              std::vector<std::int64_t> ids = {}) {
-      auto checker = checker_for(kind, start_bit, bits, length, ids);
-      if (!checker || !all_fit(*checker, of.frames)) return false;
-      add("crc_kind = \"" + std::string(kCrcNames[static_cast<std::size_t>(kind)]) + "\"" +
-              (ids.empty() ? "" : ", data_id = " + std::to_string(ids[0])),
-          where);
-      return true;
-    };
-    // The nibble at the end of the last byte, with Honda.
-    try_kind(CrcKind::kHonda, 8 * (length - 1), 4, "the last nibble");
-    for (std::uint32_t byte = 0; byte < length; ++byte) {
-      // A byte that never changes is no check.
-      const bool changes = std::ranges::any_of(
-          of.frames, [&](const CanFrame& frame) { return frame.data[byte] != of.frames[0].data[byte]; });
-      if (!changes) continue;
-      const std::string where = "byte " + std::to_string(byte);
-      for (const CrcKind kind :
-           {CrcKind::kCrc8, CrcKind::kCrc8SaeJ1850, CrcKind::kXor8, CrcKind::kSum8, CrcKind::kToyota})
-        try_kind(kind, 8 * byte, 8, where);
-      if (try_kind(CrcKind::kCrc8H2f, 8 * byte, 8, where)) continue;
-      bool with_id = false;
-      for (std::int64_t id = 0; id < 256 && !with_id; ++id)
-        with_id = try_kind(CrcKind::kCrc8H2f, 8 * byte, 8, where, {id});
-      for (std::size_t counter = 0; counter < length && !with_id; ++counter) {
-        for (const bool high : {false, true}) {
-          if (counter == byte || with_id) continue;
-          const auto ids = profile_2_ids(of.frames, byte, counter, high);
-          if (ids.empty()) continue;
-          with_id = true;
-          add("crc_kind = \"e2e-p2\", data_ids = " + ids_text(ids),
-              where + ", counter in the " + (high ? "upper" : "lower") + " half of byte " + std::to_string(counter));
-        }
-      }
-    }
-    for (std::uint32_t byte = 0; byte + 2 <= length; ++byte)
-      for (const CrcKind kind : {CrcKind::kCrc16CcittFalse, CrcKind::kCrc16Arc})
-        try_kind(kind, 8 * byte, 16, "bytes " + std::to_string(byte) + " and " + std::to_string(byte + 1));
-  }
-  return found;
 }
 
 }  // namespace phare

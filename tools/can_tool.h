@@ -1,8 +1,7 @@
-// What a CAN engineer asks of a file: which signals it has, what a log says, which control moves when, which check
-// fits. Output is text on a stream; errors carry file, line and reason. The commands are in can_command.cpp.
+// What a CAN engineer asks of a file: which signals it has, what a log says, which control moves when. Output is text
+// on a stream; errors carry file, line and reason. Which check fits: crc_search.h. The commands are in can_command.cpp.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <ostream>
 #include <string>
@@ -18,7 +17,7 @@ namespace phare {
 /// Broken lines of a DBC file or log that are named; beyond that they are counted.
 inline constexpr std::size_t kProblemsNamed = 20;
 
-/// "file:line: reason", the first kProblemsNamed, then how many more.
+/// "file:line: reason", the first kProblemsNamed, then how many more; of a log also its doubts().
 void tell_problems(const Dbc& dbc, std::ostream& out);
 void tell_problems(const CandumpLog& log, std::ostream& out);
 
@@ -27,22 +26,12 @@ void list_dbc(const Dbc& dbc, std::ostream& out);
 
 struct DecodeAsked {
   std::vector<std::string> signals;  ///< "SIGNAL" or "MESSAGE.SIGNAL"; empty: all
-  bool csv = false;                  ///< t_s,message,signal,value,unit,name
+  bool csv = false;                  ///< t_s,message,signal,value,unit,name; of several buses then interface
 };
 /// Every frame of the log that the DBC knows, in the log's order. Error for a signal that is not there: all of them.
 Status decode_log(const Dbc& dbc, const CandumpLog& log, const DecodeAsked& asked, std::ostream& out);
 
 /// Which control moves when, by this cockpit file; what is refused, what falls silent, what never moves.
 Status check_cockpit(const CockpitConfig& config, const Dbc& dbc, const CandumpLog& log, std::ostream& out);
-
-/// A check that all frames of a message carry.
-struct CrcFound {
-  CanId id;
-  std::size_t frames = 0;  ///< different ones that fit, all of them
-  std::string scheme;      ///< as a cockpit file says it: crc_kind = "crc8-h2f", data_id = 90
-  std::string where;       ///< "byte 0"
-};
-/// Tries every kind of check that a cockpit file knows on every byte of every message. `least`: frames that must fit.
-std::vector<CrcFound> find_crcs(const CandumpLog& log, std::size_t least = 24);
 
 }  // namespace phare

@@ -189,14 +189,9 @@ std::string all_commands() {
 }
 
 Result<double> number(const std::string& word) {
-  std::size_t used = 0;
-  double value = NAN;
-  try {
-    value = std::stod(word, &used);
-  } catch (const std::exception&) {
-  }
-  if (used != word.size() || !std::isfinite(value)) return Error{"", "expected a number, got \"" + word + "\""};
-  return value;
+  const auto value = finite_number(word);
+  if (!value) return Error{"", "expected a number, got \"" + word + "\""};
+  return *value;
 }
 
 /// One command in words, as on the command line.
@@ -281,6 +276,18 @@ class LineReader {
   bool ended_ = false;
 };
 
+/// The words of a line, parted by blanks; in double quotes they may hold some. Error: a quote that does not end.
+Result<std::vector<std::string>> words_of_line(const std::string& line) {
+  std::vector<std::string> words;
+  std::istringstream in(line);
+  while (in >> std::ws && !in.eof()) {
+    std::string word;
+    if (!(in >> std::quoted(word))) return Error{"", "a double quote does not end"};
+    words.push_back(std::move(word));
+  }
+  return words;
+}
+
 /// Commands, one a line: a control unit that dims segments as it drives. One line out for every one in; what is refused
 /// does not end the stream, and the exit code tells of it.
 int command_stream(ControlClient& client) {
@@ -288,12 +295,10 @@ int command_stream(ControlClient& client) {
   std::size_t line_number = 0, commands = 0, refused = 0;
   const auto take = [&](const std::string& line) {
     ++line_number;
-    std::vector<std::string> words;
-    std::istringstream in(line);
-    for (std::string word; in >> std::quoted(word);) words.push_back(word);
-    if (words.empty() || words.front().starts_with('#')) return;
+    const auto words = words_of_line(line);
+    if (words && (words->empty() || words->front().starts_with('#'))) return;
     ++commands;
-    const auto command = parse(words);
+    const auto command = words ? parse(*words) : Result<RigControl>(words.error());
     if (command) {
       client.put(*command);
     } else {

@@ -23,7 +23,7 @@ struct ImportArguments {
   ImportOptions import;
   std::string rig_file = config_path("rigs/country_road.toml"), out, light, onto, cockpit;
   bool json = false;
-  CLI::Option* start = nullptr;
+  CLI::Option *start = nullptr, *accelerator = nullptr, *brake = nullptr;
 };
 
 /// Written beside the target and renamed when whole: bad input leaves nothing half-written.
@@ -43,7 +43,11 @@ Status write_drive(const std::vector<Datagram>& datagrams, const std::filesystem
     }
   }
   std::filesystem::rename(unfinished, out, failed);
-  if (failed) return Error{out.string(), failed.message()};
+  if (failed) {
+    const Error error{out.string(), failed.message()};
+    std::filesystem::remove(unfinished, failed);
+    return error;
+  }
   return Done{};
 }
 
@@ -92,6 +96,8 @@ int import_drive(ImportArguments& arguments) {
     options.road = std::move(*road);
   }
 
+  options.signals.accelerator_must = arguments.accelerator->count() > 0;
+  options.signals.brake_must = arguments.brake->count() > 0;
   auto drive = import_can_drive(options);
   if (!drive) return bad_input(drive.error());
   if (const Status status = write_drive(drive->datagrams, arguments.out, rig->port_base); !status)
@@ -105,12 +111,13 @@ int import_drive(ImportArguments& arguments) {
     const ImportCounts& c = drive->counts;
     std::printf(
         "%s: %.2f s, %.1f m, %llu messages from %llu CAN frames (%llu used, %llu of other ids, %llu undecodable, "
-        "%llu outside), %llu broken lines and %llu poses\n",
+        "%llu stamped no later than one before, %llu outside), %llu broken lines and %llu poses\n",
         arguments.out.c_str(), drive->duration_s, drive->distance_m,
         static_cast<unsigned long long>(drive->datagrams.size()), static_cast<unsigned long long>(c.frames),
         static_cast<unsigned long long>(c.used), static_cast<unsigned long long>(c.other_ids),
-        static_cast<unsigned long long>(c.undecodable), static_cast<unsigned long long>(c.outside),
-        static_cast<unsigned long long>(c.broken_lines), static_cast<unsigned long long>(c.pose_rows));
+        static_cast<unsigned long long>(c.undecodable), static_cast<unsigned long long>(c.repeated),
+        static_cast<unsigned long long>(c.outside), static_cast<unsigned long long>(c.broken_lines),
+        static_cast<unsigned long long>(c.pose_rows));
   }
   return kExitDone;
 }
@@ -128,6 +135,8 @@ void add_import(CLI::App& app, Command& chosen) {
       "The pose table has columns t_s, east_m, north_m, up_m, heading_deg_cw_from_north, path_pitch_deg.");
   command->add_option("--can", import.can_log, "CAN log: candump -l; ASC, BLF, TRC and MF4 with python-can")
       ->required();
+  command->add_option("--interface", import.interface,
+                      "Of a log of several buses the one to take [the cockpit file's]");
   command->add_option("--dbc", import.dbc, "DBC file that describes its signals [the cockpit file's]");
   command->add_option(
       "--cockpit", arguments->cockpit,
@@ -149,9 +158,19 @@ void add_import(CLI::App& app, Command& chosen) {
   command->add_option("--steering", import.signals.steering, "MESSAGE.SIGNAL of the steering wheel, left positive")
       ->capture_default_str();
   command->add_option("--speed", import.signals.speed, "MESSAGE.SIGNAL of the speed")->capture_default_str();
-  command->add_option("--accelerator", import.signals.accelerator, "MESSAGE.SIGNAL of the accelerator")
-      ->capture_default_str();
-  command->add_option("--brake", import.signals.brake, "MESSAGE.SIGNAL of the brake")->capture_default_str();
+  command
+      ->add_option("--speed-unit", import.signals.speed_unit,
+                   "Unit of --speed, where the DBC file names none or another")
+      ->check(CLI::IsMember({"m/s", "km/h", "mph", "knots"}));
+  command
+      ->add_option("--steering-unit", import.signals.steering_unit,
+                   "Unit of --steering, where the DBC file names none or another")
+      ->check(CLI::IsMember({"deg", "rad"}));
+  arguments->accelerator =
+      command->add_option("--accelerator", import.signals.accelerator, "MESSAGE.SIGNAL of the accelerator")
+          ->capture_default_str();
+  arguments->brake =
+      command->add_option("--brake", import.signals.brake, "MESSAGE.SIGNAL of the brake")->capture_default_str();
   command->add_flag("--json", arguments->json, "Print what was read as JSON");
   command->callback([arguments, &chosen] { chosen = [arguments] { return import_drive(*arguments); }; });
 }

@@ -427,7 +427,7 @@ Result<LampChoice> parse_lamp_choice(const std::string& flag, LampFunction funct
   if (!file_first && !sides[0]) return wrong("right= without left=");
   if (!file_first && !sides[1]) return wrong("left= without right=; one file for both sides is FILE alone");
   // The keys are those of `phare measure --lamp`, read by the same reader.
-  auto parsed = parse_lamp_argument("lamp,x=0,y=0,z=0" + rest);
+  auto parsed = parse_lamp_argument("lamp,x=0,y=0,z=0" + rest, {"colour_temperature_k", "spectrum"});
   if (!parsed) return wrong(parsed.error().reason);
   if (kelvin_given && choice.source.chromaticity_xy) return wrong("a spectrum or a colour_temperature_k, not both");
   const SourceConfig coloured = choice.source;

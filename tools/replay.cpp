@@ -1,10 +1,14 @@
 // phare replay: the datagrams of a drive file onto the bus again, in their time.
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -31,19 +35,24 @@ struct ReplayOptions {
   bool open_bus = false;
 };
 
-/// Who takes this datagram.
-std::vector<Endpoint> receivers_of(const Datagram& datagram, const Rig& rig) {
+struct Receiver {
+  std::string name;
+  Endpoint at;
+};
+
+/// Who takes this datagram, but for those whose place a replay takes.
+std::vector<Receiver> receivers_of(const Datagram& datagram, const Rig& rig) {
   const Channel& row = kChannels[datagram.payload.index()];
-  std::vector<Endpoint> all;
-  const auto add = [&](Role role, std::uint32_t channel = 0) { all.push_back(endpoint_of(rig, role, channel)); };
-  for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kRecorder, Role::kControl, Role::kLaw}) {
-    if (row.receivers.has(role)) add(role);
-  }
-  if (row.receivers.has(Role::kVisual)) {
-    for (std::uint32_t channel = 0; channel < (row.first_visual_only ? 1 : rig.channels.size()); ++channel) {
-      add(Role::kVisual, channel);
-    }
-  }
+  std::vector<Receiver> all;
+  const auto add = [&](Role role, std::string name, std::uint32_t channel = 0) {
+    if (row.receivers.has(role)) all.push_back({std::move(name), endpoint_of(rig, role, channel)});
+  };
+  add(Role::kRecorder, "record");
+  add(Role::kControl, "control");
+  add(Role::kLaw, "law");
+  const std::size_t channels = row.first_visual_only ? 1 : rig.channels.size();
+  for (std::uint32_t channel = 0; channel < channels; ++channel)
+    add(Role::kVisual, "visual-" + std::to_string(channel), channel);
   return all;
 }
 
@@ -66,6 +75,7 @@ struct ReplayPorts {
         return Error{taken->error().place, taken->error().reason + "; a replay takes the place of cockpit and car"};
     auto others = UdpSocket::open(off_loopback(rig) ? "0.0.0.0" : rig.bind_address, 0);
     if (!others) return others.error();
+    for (UdpSocket* socket : {&*cockpit, &*dynamics, &*others}) socket->hear_refusals();
     return ReplayPorts{std::move(*cockpit), std::move(*dynamics), std::move(*others)};
   }
 };
@@ -90,7 +100,8 @@ int replay(const ReplayOptions& options) {
   // A new start id: a receiver that has seen this drive before takes it for a new start, not for repeats.
   const std::uint64_t run_id = static_cast<std::uint64_t>(wall_now().ns) | 1u;
   const auto begin = std::chrono::steady_clock::now();
-  std::uint64_t sent = 0, refused = 0;
+  std::uint64_t sent = 0;
+  std::map<std::string, std::uint64_t> taken;
   for (Datagram& datagram : drive->datagrams) {
     const auto due = begin + std::chrono::nanoseconds(
                                  static_cast<std::int64_t>(static_cast<double>(datagram.sim_time.ns) / options.speed));
@@ -105,13 +116,20 @@ int replay(const ReplayOptions& options) {
     if (auto* vehicle = std::get_if<VehicleState>(&datagram.payload)) vehicle->frame_index = -1;
     std::string bytes = encode(datagram);
     seal.close(bytes);
-    for (const Endpoint& to : receivers_of(datagram, *rig)) {
-      // A port nobody listens on is no failure of the replay.
-      ++(ports->of(datagram.sender).send_to(to, std::as_bytes(std::span(bytes))) ? sent : refused);
-    }
+    ++sent;
+    for (const auto& [name, at] : receivers_of(datagram, *rig))
+      if (ports->of(datagram.sender).send_to(at, std::as_bytes(std::span(bytes)))) ++taken[name];
   }
-  std::printf("%llu datagrams sent, %llu not taken, %.3f s of drive\n", static_cast<unsigned long long>(sent),
-              static_cast<unsigned long long>(refused), drive->duration.seconds());
+  std::string heard;
+  for (const auto& [name, count] : taken) heard += fmt::format(", {} by {}", count, name);
+  std::printf("%llu datagrams sent%s; %.3f s of drive\n", static_cast<unsigned long long>(sent), heard.c_str(),
+              drive->duration.seconds());
+  if (sent > 0 && taken.empty()) {
+    std::fflush(stdout);
+    std::fprintf(stderr, "phare: nobody listens at %s: no phare-visual of this rig and port base runs\n",
+                 text_of(endpoint_of(*rig, Role::kVisual)).c_str());
+    return kExitCheckFailed;
+  }
   return kExitDone;
 }
 
@@ -121,7 +139,7 @@ void add_replay(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* command = app.add_subcommand("replay", "Send the datagrams of a drive file again, in real time");
   command->footer(
-      "Takes the place of phare-cockpit and phare-dynamics for a phare-visual that runs.\n"
+      "Takes the place of phare-cockpit and phare-dynamics for a phare-visual that runs. Exit code 1: nobody listens.\n"
       "Example:\n  phare replay config/drives/country_road.pcap --speed 0.5");
   command->add_option("file", options->file, "Drive file")->required();
   command->add_option("--rig", options->rig_file, "Rig file: address, ports and channels")->capture_default_str();

@@ -121,6 +121,7 @@ nlohmann::json make_report(const Rig& rig, const DriveFacts& facts, const std::f
   if (report["processes"].contains("visual-0")) {
     const json& visual = report["processes"]["visual-0"];
     for (const char* key : {"frames",
+                            "frames_before",
                             "frames_per_s",
                             "drawn_s",
                             "frame_ms",

@@ -33,6 +33,8 @@ class Tables {
  private:
   void counts() {
     page_ << "<p>" << value_text(summary_, "frames") << " frames drawn";
+    if (summary_.contains("frames_before"))
+      page_ << " since the picture was started again, " << value_text(summary_, "frames_before") << " before";
     if (summary_.contains("device")) page_ << " on " << value_text(summary_, "device");
     if (summary_.contains("frames_per_s")) {
       page_ << ", " << value_text(summary_, "frames_per_s", "%.3g") << " frames a second: all frames by all seconds";

@@ -115,11 +115,13 @@ class Checker {
     if (!is_there(file, "the street lamps")) return;
     const auto config = read_street_lamps(file);
     if (!config) return problem(config.error());
+    if (config->lamps.empty() && config->off == 0)
+      found_.warnings.push_back(file.string() + ": no [[lamp]]: none of its luminaires hangs anywhere");
     if (is_there(config->r_table_file, "the r-table of " + file.string()))
       if (const auto table = read_r_table(config->r_table_file); !table) problem(table.error());
     for (const LuminaireConfig& kind : config->luminaires)
       if (is_there(kind.file, "the light of luminaire \"" + kind.name + "\" of " + file.string()))
-        if (const auto table = read_lamp(kind.file); !table) problem(table.error());
+        if (const auto table = read_lamp(kind.file, read_settings(kind)); !table) problem(table.error());
   }
 
   void cockpit(const fs::path& file) {
@@ -153,7 +155,11 @@ class Checker {
     std::vector<DesignConfig> designs = rig.designs;
     for (DesignConfig& design : designs) {
       std::set<std::string> names;
+      bool low = false;  // also of a file that cannot be read, which is a problem of its own
       for (const LampConfig& lamp : design.lamps) {
+        low = low || std::ranges::any_of(lamp.sources, [](const SourceConfig& source) {
+                return source.function == LampFunction::kLow;
+              });
         if (!names.insert(lamp.name).second)
           once(found_.warnings,
                fmt::format("design \"{}\": two lamps are named \"{}\"; `phare control` finds the first", design.name,
@@ -163,12 +169,8 @@ class Checker {
         std::erase_if(lamp.sources, [&](const SourceConfig& source) { return !readable(source, design, lamp); });
         return lamp.sources.empty();
       });
-      bool low = false;
       std::string right, left;  // a lamp whose low beam is for that traffic
       for (LampConfig& lamp : design.lamps) {
-        low = low || std::ranges::any_of(lamp.sources, [](const SourceConfig& source) {
-                return source.function == LampFunction::kLow;
-              });
         const CutoffSide side = aimed(design, lamp, once);
         if (side == CutoffSide::kRisesRight) right = lamp.name;
         if (side == CutoffSide::kRisesLeft) left = lamp.name;

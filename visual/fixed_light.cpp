@@ -12,12 +12,14 @@
 #include "shaders/lib/opening.h"
 #include "shaders/lib/road.h"
 #include "visual/photometry/beam/beam_composer.h"
+#include "visual/photometry/beam/lamp_tables.h"
 #include "visual/photometry/readers/read_lamp.h"
 
 namespace phare {
 namespace {
 
 constexpr double kMoon_k = 4100.0;       // sunlight that the moon has reddened; a usual figure
+constexpr std::size_t kMostNearEye = 64;  // lamps whose way to the eye is looked along
 constexpr double kOffSurface_m = 0.005;  // vertices lie on edges of their neighbours
 // A vertex of a wall may lie behind a window, of a pavement under a pole, where nobody sees it: dark, it would darken
 // what is seen a metre around. So light falls on it as if what lies on it so thinly, or it lies within so deeply, were
@@ -50,7 +52,7 @@ Result<FixedLight> FixedLight::of(const Scene& scene, const std::filesystem::pat
       light.lobes_ = RoadLobes::of(*table);
     }
     for (const LuminaireConfig& kind : config->luminaires) {
-      auto table = read_lamp(kind.file, {});
+      auto table = read_lamp(kind.file, read_settings(kind));
       if (!table) return table.error();
       const double peak_cd = table->peak_cd() * kind.scale;
       light.luminaires_.push_back({std::move(*table), {}, kind.scale, peak_cd});
@@ -372,7 +374,7 @@ std::vector<GlaringLamp> FixedLight::glare_at(const glm::dvec3& eye_m, const Air
   std::ranges::stable_sort(all, std::greater(), &GlaringLamp::eye_lx);
   std::vector<GlaringLamp> seen;
   for (const GlaringLamp& lamp : all) {
-    if (seen.size() == kMostGlaringLamps) break;
+    if (seen.size() == kMostNearEye) break;
     if (!tree_.blocked(eye_m, lamp.place_m, 1e-3, kOwnHousing_m)) seen.push_back(lamp);
   }
   return seen;

@@ -140,14 +140,18 @@ Result<tinygltf::Model> read_gltf(const std::filesystem::path& file, GltfImages 
     if (whole > bytes.size())
       return bad(place, "is cut off: its header says " + std::to_string(whole) + " bytes, there are " +
                             std::to_string(bytes.size()));
+    if (std::memcmp(bytes.data() + 16, "JSON", 4) != 0) return bad(place, "its first chunk is not JSON");
     if (length > bytes.size() - 20) return bad(place, "is cut off within its JSON chunk");
+    if (whole < 20 || length > whole - 20)
+      return bad(place, "its header says " + std::to_string(whole) + " bytes, of which its JSON chunk alone takes " +
+                            std::to_string(std::uint64_t{20} + length));
     json = json.subspan(20, length);
   }
   if (json_nesting(json) > kMaxNesting) return bad(place, "JSON is nested deeper than " + std::to_string(kMaxNesting));
 
   if (json.empty()) return bad(place, "is empty");
   const std::string_view text(reinterpret_cast<const char*>(json.data()), json.size());
-  if (Status fit = check_gltf_shapes(text); !fit) return bad(place, fit.error().text());
+  if (Status fit = check_gltf_shapes(text, file.parent_path()); !fit) return bad(place, fit.error().text());
 
   if (Status done = stand_in_for_what_is_left_out(bytes, binary); !done) return bad(place, done.error().text());
 

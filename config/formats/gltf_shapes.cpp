@@ -5,6 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "config/base/input_files.h"
+#include "config/formats/gltf_uri.h"
+
 namespace phare {
 
 namespace {
@@ -163,15 +166,22 @@ Status scene(const Json& object, const std::string& place) {
 
 }  // namespace
 
-Status check_gltf_shapes(std::string_view json) {
-  // Buffers and pictures may hold the whole scene in their text; nothing of them is asked.
-  const auto wanted = [](int depth, Json::parse_event_t event, const Json& key) {
-    return depth != 1 || event != Json::parse_event_t::key || (key != "buffers" && key != "images");
+Status check_gltf_shapes(std::string_view json, const std::filesystem::path& folder) {
+  // Buffers and pictures may hold the whole scene in their text: of pictures nothing is asked, and of buffers that are
+  // files the name.
+  constexpr std::size_t kLongestName = 4096;
+  const auto wanted = [](int depth, Json::parse_event_t event, const Json& value) {
+    if (depth == 1 && event == Json::parse_event_t::key) return value != "images";
+    return event != Json::parse_event_t::value || !value.is_string() ||
+           value.get_ref<const std::string&>().size() <= kLongestName;
   };
   const Json root = Json::parse(json, wanted, false);
   if (root.is_discarded() || !root.is_object()) return Done{};
   if (const auto found = root.find("asset"); found != root.end())
     if (const Status fit = asset(*found); !fit) return fit;
+  for (const std::filesystem::path& buffer : buffers_beside(root))
+    if (const std::string why = why_no_file(folder / buffer); !why.empty())
+      return Error{"its buffer " + buffer.string(), why};
   using Check = Status (*)(const Json&, const std::string&);
   for (const auto& [key, check] : {std::pair<const char*, Check>{"scenes", scene},
                                    {"nodes", node},

@@ -91,6 +91,12 @@ std::vector<std::filesystem::path> files_beside(const std::filesystem::path& glt
   return files_of(json_of_gltf(gltf));
 }
 
+std::vector<std::filesystem::path> buffers_beside(const Json& root) {
+  std::vector<std::filesystem::path> files;
+  add_files(root, kBuffers, files);
+  return files;
+}
+
 Result<std::string> content_hash_of_gltf(const std::filesystem::path& gltf) {
   Result<std::string> own = content_hash_of_file(gltf);
   if (!own) return own;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ std::optional<std::vector<unsigned char>> bytes_of_data_uri(const std::string& u
 /// What a .gltf or .glb names beside itself: buffers, images, photometry (EXT_lights_ies), as paths from its folder,
 /// each once, in the file's order. Of a file that is none there is nothing.
 std::vector<std::filesystem::path> files_beside(const std::filesystem::path& gltf);
+
+/// Of its JSON the buffers alone.
+std::vector<std::filesystem::path> buffers_beside(const nlohmann::json& root);
 
 /// Of the file where it names none (as `sha256sum` says), else of it and of all of those, by name; a picture or
 /// photometry that is not there counts as not there. Error: a file that cannot be read, a buffer that is not there.

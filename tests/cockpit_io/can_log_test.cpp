@@ -73,6 +73,11 @@ TEST_F(CanLogs, ALogThatBreaksOffIsUsedUpToThere) {
   const auto killed = read_can_log(touched("a.BLF"));
   ASSERT_TRUE(killed) << killed.error().text();
   EXPECT_EQ(killed->log.entries.size(), 1u);
+  // Its lines are not the log's: its frames are counted.
+  python_is("echo '#with python-can 9, BLFReader'; printf '(2.5) 0 123#00\\n(1.5) 0 123#00\\n'");
+  const auto said = doubts(read_can_log(touched("a.BLF"))->log);
+  ASSERT_EQ(said.size(), 1u);
+  EXPECT_NE(said[0].find("a.BLF: frame 2: the stamp goes back by 1.000000 s"), std::string::npos) << said[0];
   EXPECT_EQ(killed->log.problems.back().reason,
             "python-can 9, BLFReader breaks off here: Python was ended before the end of the log");
   python_is("echo '#with python-can 4.1.0'; echo '#failed no such format'");
@@ -118,6 +123,66 @@ TEST_F(CanLogs, VectorAndPeakLogsSayWhatCandumpSays) {
   for (const char* ending : {"asc", "blf", "trc"}) {
     SCOPED_TRACE(ending);
     says_what_candump_says(folder_, build_root("oracle") + "/bin/python", ending);
+  }
+}
+
+// Vector's relative stamps count from the event above, also from those that are no frames.
+TEST_F(CanLogs, RelativeStampsOfAnAscLogAreAddedUp) {
+  const auto [why, status] = make_oracle_venv();
+  if (status != 0) GTEST_SKIP() << "no Python environment: " << why;
+  setenv("PHARE_PYTHON", (build_root("oracle") + "/bin/python").c_str(), 1);
+  const auto stamps_of = [&](const std::string& kind) {
+    std::ofstream(folder_ / "drive.ASC") << "date Mon Nov 23 08:00:00.000 2026\nbase hex  timestamps " + kind +
+                                                "\ninternal events logged\n"
+                                                "Begin Triggerblock Mon Nov 23 08:00:00.000 2026\n"
+                                                "   0.000000 Start of measurement\n"
+                                                "   0.010000 1  123             Rx   d 2 01 02\n"
+                                                "   0.010000 1  123             Rx   d 2 01 03\n"
+                                                "   0.004000 1  Statistic: D 2 R 0 XD 0 XR 0 E 0 O 0 B 0.10%\n"
+                                                "   0.006000 2  123             Rx   d 2 01 04\nEnd TriggerBlock\n";
+    const auto log = read_can_log(folder_ / "drive.ASC");
+    EXPECT_TRUE(log) << log.error().text();
+    std::vector<std::int64_t> stamps_us;
+    for (const CandumpEntry& entry : log->log.entries) stamps_us.push_back(entry.stamp_ns / 1000);
+    EXPECT_EQ(log->log.interfaces.size(), 2u);
+    return stamps_us;
+  };
+  EXPECT_EQ(stamps_of("relative"), (std::vector<std::int64_t>{10'000, 20'000, 30'000}));
+  EXPECT_EQ(stamps_of("absolute"), (std::vector<std::int64_t>{10'000, 10'000, 6'000}));
+}
+
+TEST_F(CanLogs, ABlfFileThatIsCutOffIsTold) {
+  const auto [why, status] = make_oracle_venv();
+  if (status != 0) GTEST_SKIP() << "no Python environment: " << why;
+  const std::string python = build_root("oracle") + "/bin/python";
+  setenv("PHARE_PYTHON", python.c_str(), 1);
+  const fs::path whole = folder_ / "whole.blf", cut = folder_ / "cut.blf", unsaid = folder_ / "unsaid.blf";
+  const auto [out, failed] =
+      output_of("'" + python +
+                "' -c 'import can,struct,sys\nw = can.Logger(sys.argv[1])\n"
+                "for i in range(500): w(can.Message(arbitration_id=0x123, timestamp=1.7e9 + i, data=[i * 37 & 255, i * "
+                "91 & 255]))\n"
+                "w.stop()\ndata = open(sys.argv[1], \"rb\").read()[:-150]\nopen(sys.argv[2], \"wb\").write(data)\n"
+                "open(sys.argv[3], \"wb\").write(data[:16] + struct.pack(\"<Q\", 144) + data[24:])' '" +
+                whole.string() + "' '" + cut.string() + "' '" + unsaid.string() + "' 2>&1");
+  ASSERT_EQ(failed, 0) << out;
+  const auto good = read_can_log(whole);
+  ASSERT_TRUE(good) << good.error().text();
+  EXPECT_EQ(good->log.entries.size(), 500u);
+  EXPECT_EQ(good->log.broken_lines, 0u);
+  const std::uintmax_t size = fs::file_size(whole);
+  const std::string by_header =
+      "the file is cut off, " + std::to_string(size - 150) + " of its " + std::to_string(size) + " bytes are there";
+  // A logger that lost its power has not written the size: the last object is longer than the file.
+  for (const auto& [file, reason] :
+       {std::pair(cut, by_header), std::pair(unsaid, std::string("the file is cut off within "))}) {
+    const auto read = read_can_log(file);
+    ASSERT_TRUE(read) << read.error().text();
+    EXPECT_GT(read->log.entries.size(), 0u);
+    EXPECT_LT(read->log.entries.size(), 500u);
+    ASSERT_EQ(read->log.broken_lines, 1u);
+    EXPECT_NE(read->log.problems.back().reason.find("BLFReader breaks off here: " + reason), std::string::npos)
+        << read->log.problems.back().reason;
   }
 }
 

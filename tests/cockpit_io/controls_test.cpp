@@ -1,6 +1,7 @@
 // Every kind of control: levels, levers, bits, latches, signs, ranges; checks that refuse; gamepads; several sources.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <numbers>
 
@@ -26,7 +27,8 @@ const char* const kDbc =
     " SG_ FOGGER m2 : 8|8@1+ (1,0) [0|0] \"\" X\n"
     "BO_ 3 OUT: 8 X\n SG_ HIGH : 0|1@1+ (1,0) [0|1] \"\" X\n SG_ KMH : 8|8@1+ (1,0) [0|255] \"\" X\n"
     " SG_ COUNT : 16|4@1+ (1,0) [0|0] \"\" X\n SG_ CRC : 56|8@1+ (1,0) [0|0] \"\" X\n"
-    "VAL_ 1 S0 0 \"rest\" 1 \"pushed\" 2 \"pulled\" 3 \"half\" 7 \"faulty\";\n";
+    "VAL_ 1 S0 0 \"rest\" 1 \"pushed\" 2 \"pulled\" 3 \"half\" 7 \"faulty\";\n"
+    "VAL_ 1 S2 0 \"off\" 1 \"on\" 255 \"LIGHT_SNA\" 254 \"NASNA\";\n";
 
 std::string can(const std::string& rest, const std::string& source = "") {
   return "[source]\nkind = \"log\"\n" + source + rest;
@@ -226,6 +228,31 @@ TEST(Controls, AWrittenValueIsThatOfTheSignalNearestToIt) {
   }
 }
 
+// Not available and errors are no values: of a pedal, of a flag, by the DBC file's names or by the cockpit file.
+TEST(Controls, WhatIsNotAvailableChangesNothing) {
+  Bench pedal(can(control("brake", "S2", "range = [0, 100]\n") +
+                  control("accelerator", "S1", "range = [0, 100]\ninvalid = 200\n")));
+  EXPECT_EQ(pedal.send({0, 25, 50}), SignalMap::Taken::kDecoded);
+  EXPECT_EQ(pedal.send({0, 200, 255}), SignalMap::Taken::kIncomplete);
+  EXPECT_EQ(pedal.input.brake_01, 0.5);
+  EXPECT_EQ(pedal.input.accelerator_01, 0.25);
+  EXPECT_EQ(pedal.send({0, 201, 254}), SignalMap::Taken::kDecoded);
+  EXPECT_EQ(pedal.input.brake_01, 1.0) << "254 is called otherwise";
+  EXPECT_EQ(pedal.input.accelerator_01, 1.0);
+
+  Bench lamp(can(control("low", "S2") + control("position", "S1")));
+  lamp.send({0, 1, 1});
+  EXPECT_EQ(lamp.state().light_switch, LightSwitch::kLow);
+  const std::int64_t silent_at = lamp.map.silent_at_ns();
+  EXPECT_EQ(lamp.send({0, 1, 255}), SignalMap::Taken::kIncomplete);
+  EXPECT_EQ(lamp.state().light_switch, LightSwitch::kLow) << "it stays";
+  EXPECT_EQ(lamp.map.silent_at_ns(), silent_at) << "and nobody knows what is wanted";
+
+  Bench said(can(control("flash", "S2", "on = [\"LIGHT_SNA\"]\n")));
+  EXPECT_EQ(said.send({0, 0, 255}), SignalMap::Taken::kDecoded);
+  EXPECT_TRUE(said.state().flash) << "the cockpit file says what it means";
+}
+
 // ---- what is refused
 
 TEST(Checks, AFrameWithAWrongCrcIsNotRead) {
@@ -278,6 +305,10 @@ TEST(CockpitErrors, AreSaidAtTheirLineAndNameTheNearest) {
   says(can(control("beam_lever", "S0", "levels = { neutral = 0, push = 1 }\nlatch = \"pusch\"\n")),
        "is none of none, push, pull");
   says(can(control("steering", "ANGLE", "range_deg = [-5000, 5000]\n")), "within -1080 and 1080");
+  says(can(control("steering", "ANGLE", "scale = 0\n")), "c.toml:6: \"control.steering.scale\": must not be 0");
+  says(can(control("steering", "ANGLE", "range_deg = [10, 20]\n")),
+       "c.toml:6: \"control.steering.range_deg\": must have 0");
+  EXPECT_EQ(error_of(can(control("steering", "ANGLE", "range_deg = [0, 20]\n"))), "");
   says(can(flash + "[check.A]\n"), "expected a counter, a crc or both");
   says(can(flash + "[check.A]\ncrc = \"CRC\"\ncrc_kind = \"crc9\"\n"), "is none of none, e2e-p1");
   says(can(flash + "[check.A]\ncrc = \"CRC\"\ncrc_kind = \"e2e-p1\"\ndata_id = 7\n"), "needs a counter");
@@ -290,6 +321,46 @@ TEST(CockpitErrors, AreSaidAtTheirLineAndNameTheNearest) {
   says("[source]\nkind = \"gamepad\"\n[control.flash]\naxis = 1\nbutton = 1\n", "expected one of axis, button and hat");
   says("[source]\nkind = \"gamepad\"\n[control.flash]\nhat = \"0.north\"\n", "expected a hat and its way");
   says("[source]\nkind = \"gamepad\"\n", "at least one [control");
+}
+
+TEST(Sending, ASignalThatDoesNotHoldItsSourceIsTold) {
+  const auto doubts_of = [](const std::string& signals) {
+    const auto config = parse_cockpit(can("[[send]]\nmessage = \"OUT\"\n[send.signals]\n" + signals), "c.toml");
+    EXPECT_TRUE(config) << config.error().text();
+    return send_doubts(*config, *parse_dbc(kDbc, "c.dbc"));
+  };
+  EXPECT_TRUE(doubts_of("HIGH = \"high_beam\"\nKMH = \"speed_kmh\"\nCOUNT = \"light_switch\"\n").empty());
+  const auto speed = doubts_of("KMH = \"speed_kmh\"\nHIGH = \"speed_kmh\"\n");
+  ASSERT_EQ(speed.size(), 1u);
+  EXPECT_EQ(speed[0],
+            "c.toml:7: speed_kmh is 0 to 130, the bits of \"HIGH\" hold 0 to 1; beyond, the nearest of these is sent");
+  const auto others = doubts_of("HIGH = \"light_switch\"\nKMH = \"steering_deg\"\n");
+  ASSERT_EQ(others.size(), 2u);
+  EXPECT_NE(others[0].find("light_switch is 0 to 3, the bits of \"HIGH\" hold 0 to 1"), std::string::npos) << others[0];
+  EXPECT_NE(others[1].find("steering_deg is -360 to 360, the bits of \"KMH\" hold 0 to 255"), std::string::npos);
+  // What the file writes of a signal that has bits enough.
+  const auto written =
+      send_doubts(*parse_cockpit(can("[[send]]\nmessage = \"OUT\"\n[send.signals]\nA = \"speed_kmh\"\n"), "c.toml"),
+                  *parse_dbc("BO_ 3 OUT: 8 X\n SG_ A : 0|16@1+ (1,0) [0|1] \"\" X\n", "c.dbc"));
+  ASSERT_EQ(written.size(), 1u);
+  EXPECT_EQ(written[0], "c.toml:6: speed_kmh is 0 to 130, the DBC file says that \"A\" is 0 to 1");
+}
+
+// A table may be long: what a key says wrong is said at the key's line.
+TEST(CockpitErrors, HaveTheLineOfTheKey) {
+  const auto at_key = [](const std::string& text, const std::string& key) {
+    const auto before = text.begin() + static_cast<std::ptrdiff_t>(text.find("\n" + key + " =") + 1);
+    const std::string line = "c.toml:" + std::to_string(1 + std::count(text.begin(), before, '\n')) + ": ";
+    EXPECT_EQ(error_of(text).substr(0, line.size()), line) << error_of(text) << "\n" << text;
+  };
+  at_key(can(control("turn", "S0", "timeout_s = 1\nlevels = { none = 0, left = 100000 }\n")), "levels");
+  at_key(can(control("turn", "S0", "timeout_s = 1\nlevels = { none = 0, left = \"pushd\" }\n")), "levels");
+  at_key(can(control("flash", "S0", "timeout_s = 1\non = 0.5\n")), "on");
+  at_key(can(control("flash", "S0", "timeout_s = 1\nbits = \"2|4\"\n")), "bits");
+  at_key(can(control("flash", "S0", "timeout_s = 1\nbits = \"62|4@1+\"\n")), "bits");
+  at_key(can(control("brake", "S2", "range = [0, 1]\ninvalid = 300\n")), "invalid");
+  at_key(can(control("steering", "ANGLE", "scale = 1\nfine_signal = \"ANGEL\"\n")), "fine_signal");
+  at_key(can(control("steering", "ANGLE", "scale = 1\nsign_signal = \"ANGEL\"\n")), "sign_signal");
 }
 
 // What no frame says again: a push button that latches, and the levelling wheel before its message comes; and a stalk

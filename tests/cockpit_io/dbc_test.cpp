@@ -48,6 +48,32 @@ TEST(Dbc, DecodesIntelBits) {
   EXPECT_EQ(dbc.messages.front().find("WORD")->unit, "km/h");
 }
 
+TEST(Dbc, AQuoteBehindABackslashIsOfTheText) {
+  const Dbc dbc = parsed(
+      "BO_ 1 M: 8 X\n SG_ A : 0|8@1+ (1,0) [0|0] \"\" X\n"
+      "CM_ SG_ 1 A \"says \\\"high\\\";\nC:\\dir\";\n"
+      "VAL_ 1 A 1 \"one \\\"q\\\"\" 255 \"all; of it\" ;\n");  // read so by cantools 45.1.0
+  EXPECT_TRUE(dbc.problems.empty()) << dbc.problems.front().reason;
+  const DbcSignal& a = *dbc.messages.front().find("A");
+  EXPECT_EQ(a.value_names, (std::map<std::int64_t, std::string>{{1, "one \"q\""}, {255, "all; of it"}}));
+  EXPECT_EQ(a.comment, "says \"high\";\nC:\\dir");
+}
+
+TEST(Dbc, WhatIsNamedTwiceIsTold) {
+  const Dbc dbc = parsed(
+      "BO_ 1 M: 8 X\n SG_ A : 0|8@1+ (1,0) [0|0] \"\" X\n SG_ B : 8|8@1+ (1,0) [0|0] \"\" X\nBO_ 2 M: 8 X\n"
+      "VAL_ 1 A 1 \"one\" 2 \"two\" 1 \"uno\" ;\nVAL_ 1 B 0 \"off\" ;\nVAL_ 1 B 1 \"on\" ;\n");
+  EXPECT_EQ(dbc.messages.front().find("A")->value_names.at(1), "uno");
+  ASSERT_EQ(dbc.problems.size(), 3u);
+  EXPECT_EQ(dbc.problems[0].line, 5);
+  EXPECT_EQ(dbc.problems[0].reason, "names the value 1 twice, \"one\" and \"uno\"; the second is used");
+  EXPECT_EQ(dbc.problems[1].line, 7);
+  EXPECT_EQ(dbc.problems[1].reason, "has value names already; those of this line are used");
+  EXPECT_EQ(dbc.problems[2].line, 4);
+  EXPECT_EQ(dbc.problems[2].reason,
+            "the message of line 1 has this name too; by the name that one is found, by its id this one");
+}
+
 TEST(Dbc, DecodesMotorolaBits) {
   // Start bit is the most significant: 7|16 is the first two bytes, big-endian.
   const Dbc dbc = parsed(

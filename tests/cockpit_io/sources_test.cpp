@@ -42,6 +42,33 @@ SignalMap stalk_map() {
   return *SignalMap::bind(*config, *read_dbc(kCockpits / "phare_stalk.dbc"), 0);
 }
 
+TEST(LogSource, OfSeveralBusesThatOfTheCockpitFileIsPlayed) {
+  const auto folder = std::filesystem::temp_directory_path() / ("phare-buses-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "any.log") << "(1.000) can0 500#0200000000000000\n(1.001) can1 500#0000000000000000\n";
+  const auto light_of = [&](const std::string& interface, bool asked) -> std::string {
+    auto config = parse_cockpit("[source]\nkind = \"log\"\n" + interface +
+                                    "[control.light_switch]\nmessage = \"BEAM_STALK\"\nsignal = \"BEAM_SWITCH\"\n"
+                                    "levels = { off = 0, position = 1, low = 2, high = 3 }\n",
+                                (folder / "c.toml").string());
+    if (!config) return config.error().text();
+    config->dbc_file = kCockpits / "phare_stalk.dbc";
+    config->input_file = folder / "any.log";
+    config->interface_is_asked = asked;
+    auto source = open_source(*config);
+    if (!source) return source.error().reason;
+    Cockpit cockpit({20'000'000, 2}, "log");
+    (*source)->advance(at_ms(0), nullptr, cockpit);
+    (*source)->advance(at_ms(30), nullptr, cockpit);
+    return cockpit.state(-1, false).light_switch == LightSwitch::kLow ? "low" : "off";
+  };
+  EXPECT_EQ(light_of("", false), "off") << "both, the newest counts";
+  EXPECT_EQ(light_of("interface = \"can0\"\n", false), "low");
+  EXPECT_EQ(light_of("interface = \"can1\"\n", false), "off");
+  EXPECT_EQ(light_of("interface = \"can7\"\n", true), "no frame comes from can7, but from can0 and can1");
+  std::filesystem::remove_all(folder);
+}
+
 TEST(LogSource, PlaysByTheStampAndNotByTheTick) {
   LogSource source(
       *parse_candump(

@@ -8,7 +8,9 @@
 
 #include "check_helpers.h"
 #include "visual/photometry/bench/check.h"
+#include "visual/photometry/bench/check_rows.h"
 #include "visual/photometry/bench/lint.h"
+#include "visual/photometry/bench/rule_beam.h"
 #include "visual/photometry/bench/sample_lamps.h"
 #include "visual/photometry/readers/read_lamp.h"
 #include "visual/photometry/table/combine.h"
@@ -25,6 +27,26 @@ using test::row_of, test::rule;
 
 CheckResult check_by(const IntensityTable& table, const std::string& name, const CheckOptions& options = {}) {
   return test::check(table, rule(name), options);
+}
+
+// On a ridge between two steps of the walk: 1000 cd/deg to both sides of H 0.011.
+TEST(CheckEvidence, TheExtremeOfALineLiesBetweenItsSteps) {
+  IntensityTable ridge;
+  ridge.type = PhotometricType::kA;
+  ridge.first_deg = {-10.0, 0.011, 10.0};
+  ridge.second_deg = {-5.0, 5.0};
+  ridge.candela = {0.0, 10000.0, 0.0, 0.0, 10000.0, 0.0};
+  const IntensityTable* tables[] = {&ridge};
+  RuleBeam beam(tables, false);
+  RuleRow line;
+  line.id = "line";
+  line.shape = RowShape::kLine;
+  line.at = {{-1.0, 0.0}, {1.0, 0.0}};
+  line.max_cd = 9999.0;
+  const CheckRow row = judge_row(beam, rule("r112-passing-b"), line, {}, false);
+  EXPECT_NEAR(row.highest, 10000.0, 0.2);
+  EXPECT_LT(row.margin, 0.0);
+  EXPECT_NEAR(row.highest_at.h_deg, 0.011, 2.1e-4);
 }
 
 /// The part of a type A table between these angles; the rest cut off, or kept as zeros.
@@ -92,6 +114,13 @@ TEST(CheckEvidence, NothingPassesWhereTheTableHasNoData) {
   const IntensityTable shallow = cropped(sample_table("low_rht.ies"), 9.6, -3.0, 0.8);
   EXPECT_EQ(row_of(check_by(shallow, "r149-passing-c"), "Segment 10 and below").verdict, RuleVerdict::kNoData);
   EXPECT_EQ(row_of(r149, "luminous flux").verdict, RuleVerdict::kNoData);  // light outside can only add
+  // So can other light: the clause takes flux in two zones in its place, which is not checked.
+  IntensityTable dim = sample_table("low_rht.ies");
+  for (double& cd : dim.candela) cd *= 0.3;
+  const CheckRow flux = row_of(check_by(dim, "r149-passing-c"), "luminous flux");
+  EXPECT_LT(flux.value(), 1000.0);
+  EXPECT_EQ(flux.verdict, RuleVerdict::kNoData);
+  EXPECT_NE(flux.open.find("400 lm in zone I"), std::string::npos);
   EXPECT_EQ(check_by(part, "fmvss108-lb2v").failed, 0u);
   for (const char* id : {"Points 1, 2", "Points 8, 9"})
     EXPECT_EQ(row_of(check_by(cropped(sample_table("fog.ies"), 20.0, -10.0, 10.0), "r19-f3"), id).verdict,

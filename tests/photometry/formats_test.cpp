@@ -7,7 +7,10 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "photometry_test_files.h"
 #include "visual/photometry/readers/read_lamp.h"
@@ -65,6 +68,56 @@ TEST(Eulumdat, TheFiveSymmetriesUnfold) {
   ASSERT_TRUE(quadrant.ok()) << quadrant.error().text();
   for (const double angle : {0.0, 180.0, 360.0}) EXPECT_DOUBLE_EQ(at90(quadrant, angle), 10.0);
   for (const double angle : {90.0, 270.0}) EXPECT_DOUBLE_EQ(at90(quadrant, angle), 20.0);
+}
+
+TEST(Eulumdat, HalfATurnIsNoLamp) {
+  const std::vector<double> gamma{0, 90};
+  const std::string half = ldt(0, {0, 90, 180}, gamma, {"1", "10", "1", "20", "1", "30"});
+  EXPECT_NE(refusal(half, "a.ldt").find("a.ldt:45: the C angles end at 180 although Isym is 0"), std::string::npos)
+      << refusal(half, "a.ldt");
+  const auto two = parse(ldt(0, {0, 180}, gamma, {"1", "10", "1", "20"}), "a.ldt");
+  ASSERT_TRUE(two.ok()) << two.error().text();
+  EXPECT_DOUBLE_EQ(two->intensity_at_cd({90.0, 90.0}), 15.0);
+}
+
+TEST(Eulumdat, HeadersThatContradictTheAnglesAreTold) {
+  const auto notes = [](std::string text, std::size_t line, const std::string& value) {
+    std::size_t at = 0;
+    for (std::size_t i = 1; i < line; ++i) at = text.find('\n', at) + 1;
+    text.replace(at, text.find('\n', at) - at, value);
+    const auto table = parse(text, "a.ldt");
+    return table.ok() ? table->notes : std::vector<std::string>{table.error().text()};
+  };
+  const std::string good =
+      ldt(0, {0, 90, 180, 270}, {0, 45, 90}, {"1", "2", "3", "1", "2", "3", "1", "2", "3", "1", "2", "3"});
+  for (const auto& [line, value] : {std::pair<std::size_t, const char*>{5, "90"}, {7, "45"}, {25, "0"}})
+    EXPECT_TRUE(notes(good, line, value).empty()) << line;
+  for (const auto& [line, value, says] :
+       {std::tuple{std::size_t{5}, "10", "a.ldt:5: the distance Dc of C planes (5) is 10 deg, but 90 follows 0"},
+        std::tuple{std::size_t{7}, "5", "a.ldt:7: the distance Dg of gamma angles (7) is 5 deg, but 45 follows 0"},
+        std::tuple{std::size_t{25}, "15", "a.ldt:25: measured with the luminaire tilted by 15 deg"}}) {
+    const auto told = notes(good, line, value);
+    ASSERT_EQ(told.size(), 1u) << line;
+    EXPECT_EQ(told[0].rfind(says, 0), 0u) << told[0];
+  }
+}
+
+/// Lines 2 to 7 and 22 of what is written: Ityp, Isym, Mc, Dc, Ng, Dg and DFF.
+TEST(Eulumdat, TheHeaderThatIsWrittenIsTrue) {
+  const auto head = [](const IntensityTable& table) {
+    const std::string text = eulumdat_text(table, GammaAxis::kGamma0);
+    std::vector<std::string> lines;
+    for (std::size_t at = 0; at < text.size(); at = text.find('\n', at) + 1)
+      lines.push_back(text.substr(at, text.find('\r', at) - at));
+    return std::vector<std::string>{lines[1], lines[2], lines[3], lines[4], lines[5], lines[6], lines[21]};
+  };
+  // The same in all directions: half of it goes down.
+  const auto round = parse(ldt(1, {0}, {0, 45, 90, 135, 180}, {"5", "5", "5", "5", "5"}), "a.ldt");
+  ASSERT_TRUE(round.ok()) << round.error().text();
+  EXPECT_EQ(head(*round), (std::vector<std::string>{"1", "1", "1", "0", "5", "45", "50"}));
+  const auto down = parse(ldt(0, {0, 90, 180, 270}, {0, 30, 90}, std::vector<std::string>(12, "5")), "a.ldt");
+  ASSERT_TRUE(down.ok()) << down.error().text();
+  EXPECT_EQ(head(*down), (std::vector<std::string>{"3", "0", "4", "90", "3", "0", "100"}));
 }
 
 TEST(Eulumdat, LampSetsAndFactorsScale) {
@@ -205,7 +258,13 @@ TEST(LampCsv, RefusalsSayWhereAndWhy) {
   EXPECT_EQ(refusal("# unit: cd\nV\\H,0,1\n0,1,2,3\n", "a.csv"), "a.csv:3: expected 2 values, got more");
   EXPECT_EQ(refusal("# unit: cd\nV\\H,0,1\n0,1,nan\n", "a.csv"), "a.csv:3: value 2 is not a finite number: \"nan\"");
   EXPECT_EQ(refusal("# unit: cd\nV\\H,0,2,1\n0,1,2,3\n1,1,2,3\n", "a.csv"),
-            "a.csv:4: the column angles go neither up nor down all the way: 1 follows 2");
+            "a.csv:2: the column angles go neither up nor down all the way: 1 follows 2");
+  EXPECT_EQ(refusal("# unit: cd\nV\\H,0,1\n0,1,2\n2,1,2\n1,1,2\n3,1,2\n", "a.csv"),
+            "a.csv:5: the row angles go neither up nor down all the way: 1 follows 2");
+  EXPECT_EQ(refusal("# unit: cd\nV\\H,-200,1\n0,1,2\n1,1,2\n", "a.csv"),
+            "a.csv:2: the angle -200 is outside this type's range");
+  EXPECT_EQ(refusal("# unit: cd\nV\\H,0,1\n-95,1,2\n1,1,2\n2,1,2\n", "a.csv"),
+            "a.csv:3: the angle -95 is outside this type's range");
   EXPECT_EQ(refusal("# unit: cd\nV\\y,0,1\n0,1,2\n1,1,2\n", "a.csv"),
             "a.csv:4: rows and columns do not go together: H with V, C with gamma, y with z");
   EXPECT_EQ(refusal("h_deg,v_deg,intensity_cd\n0,0,1\n0,1,1\n1,0,1\n", "a.csv"),

@@ -117,5 +117,17 @@ TEST(AnglesFile, GivesTheTableValues) {
   EXPECT_EQ(test::content_of(out), "h_deg,v_deg,intensity_cd\n0,0,1000\n91,0,0\n");
 }
 
+// C goes round, so an angle outside 0 to 360 is that of the same plane.
+TEST(Angles, OfTypeCGoRound) {
+  IntensityTable table;
+  table.type = PhotometricType::kC;
+  table.first_deg = {0, 180, 350, 360};
+  table.second_deg = {0, 90};
+  table.candela = {5, 5, 5, 5, 10, 20, 40, 10};
+  for (const auto& [c_deg, same_deg] : {std::pair{-10.0, 350.0}, {370.0, 10.0}, {-360.0, 0.0}, {710.0, 350.0}})
+    EXPECT_EQ(intensity_of_row_cd(table, {c_deg, 90.0}), intensity_of_row_cd(table, {same_deg, 90.0})) << c_deg;
+  EXPECT_EQ(intensity_of_row_cd(table, {-10.0, 90.0}), 40.0);
+}
+
 }  // namespace
 }  // namespace phare

@@ -94,6 +94,26 @@ TEST(Lint, MissingDataSpikesAndEdges) {
   EXPECT_EQ(lint_lamp(dark).findings.front().grade, Grade::kError);
 }
 
+// A table of type C has some directions more than once.
+TEST(Lint, OneDirectionOfTypeCHasOneIntensity) {
+  IntensityTable good;
+  good.type = PhotometricType::kC;
+  good.axis = GammaAxis::kGamma0;
+  good.first_deg = {0, 90, 180, 270, 360};
+  good.second_deg = {0, 10, 20};
+  good.candela = {1000, 1000, 1000, 1000, 1000, 500, 400, 500, 400, 500, 0, 0, 0, 0, 0};
+  for (const char* id : {"pole", "seam", "cut-table"}) EXPECT_EQ(find(lint_lamp(good), id), nullptr) << id;
+  IntensityTable pole = good;
+  pole.candela[1] = 970;
+  EXPECT_NE(find(lint_lamp(pole), "pole"), nullptr);
+  IntensityTable seam = good;
+  seam.candela[9] = 900;
+  EXPECT_NE(find(lint_lamp(seam), "seam"), nullptr);
+  IntensityTable hole = good;  // begins at 20°, lit there: the axis is dark
+  hole.second_deg = {20, 30, 40};
+  EXPECT_NE(find(lint_lamp(hole), "cut-table"), nullptr);
+}
+
 // A block of zeros, and columns of zeros side by side, are as missing as single ones.
 TEST(Lint, MissingDataOfAnyWidth) {
   const auto with_zeros = [](double h_low, double h_high, double v_low, double v_high) {

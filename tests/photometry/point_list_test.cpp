@@ -88,6 +88,22 @@ TEST(PointList, ReadsWhatLaboratoriesWrite) {
   EXPECT_EQ(read("Point,cd\n75L,1\n", 0.0, true)->beams[0].points[0].name, "75R");
 }
 
+// Three digits behind every mark: may have been meant as thousands, and the verdict hangs on it.
+TEST(PointList, MarksThatLookLikeThousandsAreTold) {
+  const auto told = [](const std::string& text) {
+    const auto lists = read(text);
+    return !lists.ok() ? lists.error().text() : lists->warnings.empty() ? std::string() : lists->warnings.front();
+  };
+  EXPECT_EQ(told("Point;cd\n0.86D-V;5,000\n1.5D 2R;15,100\n75R;400\n"),
+            "lab.csv:2: \"5,000\" is read as 5, as all values of three digits behind their mark; thousands are written "
+            "without one");
+  EXPECT_EQ(told("Point,cd\nHV,12\n0.86D-V,15.100\n").substr(0, 35), "lab.csv:3: \"15.100\" is read as 15.1");
+  for (const char* decimals :
+       {"Point,cd\nHV,15.100\n75R,15.1\n", "Point,cd\nHV,15.100\n75R,0.250\n", "Point,cd\nHV,15.100\n75R,10200\n",
+        "Point,cd\nHV,\"1,310\"\n", "# distance_m: 25\nPoint,E (lux)\n75R,16.250\n"})
+    EXPECT_EQ(told(decimals), "") << decimals;
+}
+
 TEST(PointList, SeveralBeams) {
   const auto by_rows = read("Beam,Point,cd\nLower,4D 20L,400\nUpper,HV,50000\nLower,HV,\n");
   ASSERT_TRUE(by_rows.ok()) << by_rows.error().text();
@@ -162,6 +178,17 @@ TEST(CheckPoints, RowsThatHaveTheirPoint) {
   EXPECT_EQ(unused, std::vector<std::string>{"5D 5L"});
   EXPECT_EQ(result.verdict, RuleVerdict::kFail);
   EXPECT_EQ(result.aim_method, "as measured");
+}
+
+// Measured by its direction and once more by its name: neither is passed over.
+TEST(CheckPoints, APointThatIsThereByNameAndByDirectionCountsTwice) {
+  for (const char* text : {"Point,cd\nB50L,310\n0.57U 3.43L,400\n", "Point,cd\nB50L,400\n0.57U 3.43L,310\n"}) {
+    std::vector<std::string> unused;
+    const CheckResult result = judged(text, "r112-passing-b", {}, &unused);
+    EXPECT_EQ(row_of(result, "B50L").highest, 400.0) << text;
+    EXPECT_EQ(row_of(result, "B50L").lowest, 310.0) << text;
+    EXPECT_TRUE(unused.empty()) << text;
+  }
 }
 
 // A point decides of a zone or a line only that it breaks its limit.

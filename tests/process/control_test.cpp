@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <sstream>
 #include <thread>
 
@@ -89,15 +90,15 @@ TEST_F(Control, ARunningRigAnswers) {
   // senders speak, and the stream goes on.
   const std::string one = "timeout 100 '" + program("phare") + "' control --port-base " + std::to_string(port_base()) +
                           " aim 0.1 >/dev/null; ";
-  heard =
-      control("--wait 60 -", "{ echo design 1; echo '# nothing'; echo 'dim \"headlamp left\" 1 0'; " + one +
-                                 "echo 'dim \"nobody\" 1 0'; " + one +
-                                 "echo design 7; echo aim nan; echo 'dim \"headlamp left\" 1 1'; echo design 0; } | ");
+  heard = control("--wait 60 -", "{ echo design 1; echo '# nothing'; echo 'dim \"headlamp left\" 1 0'; " + one +
+                                     "echo 'dim \"nobody\" 1 0'; " + one +
+                                     "echo design 7; echo aim nan; echo 'dim \"headlamp left\" 1 1'; echo design 0; "
+                                     "echo 'reset \"headlamp left'; } | ");
   EXPECT_EQ(heard.code, 2);
   std::vector<std::string> lines;
   std::istringstream in(heard.out);
   for (std::string line; std::getline(in, line);) lines.push_back(line);
-  ASSERT_EQ(lines.size(), 7u) << heard.out << heard.err;
+  ASSERT_EQ(lines.size(), 8u) << heard.out << heard.err;
   EXPECT_TRUE(lines[0].starts_with("ok: design 1 of 2, ")) << lines[0];
   EXPECT_EQ(lines[1], "ok: headlamp left: source 1 at 0 %");
   EXPECT_TRUE(lines[2].starts_with("refused: lamp \"nobody\": ")) << lines[2];
@@ -105,7 +106,9 @@ TEST_F(Control, ARunningRigAnswers) {
   EXPECT_TRUE(lines[4].starts_with("refused: line 6: aim: ")) << lines[4];
   EXPECT_EQ(lines[5], "ok: headlamp left: source 1 at 100 %");
   EXPECT_TRUE(lines[6].starts_with("ok: design 0 of 2, ")) << lines[6];
-  EXPECT_EQ(heard.err, "phare: standard input: 3 of 7 commands refused\n");
+  EXPECT_TRUE(lines[7].starts_with("refused: line 9: ")) << lines[7];
+  EXPECT_NE(lines[7].find("a double quote does not end"), std::string::npos) << lines[7];
+  EXPECT_EQ(heard.err, "phare: standard input: 4 of 8 commands refused\n");
 
   EXPECT_EQ(control("quit").out, "leaves\n");
   EXPECT_EQ(run.wait(), 0);
@@ -220,7 +223,6 @@ TEST_F(Control, ReflectedLightIsInNoLampsColumn) {
   EXPECT_EQ(lamp_lx, 0.0);
 }
 
-// Each instrument that is off is no pass and no view; those that draw over the picture share the overlay's pass.
 // Somebody who seeks back, by much while it drives and by little in a pause, is shown and kept what is there.
 TEST_F(Control, ASeekBackIsFollowedAndKept) {
   struct Row {
@@ -263,10 +265,63 @@ TEST_F(Control, ASeekBackIsFollowedAndKept) {
   ASSERT_TRUE(comes([](const auto& all) { return std::abs(all.back().time_s - 4.9) < 0.03; }));
   ASSERT_EQ(control("seek 4.8").code, 0);
   ASSERT_TRUE(comes([](const auto& all) { return std::abs(all.back().time_s - 4.8) < 0.03; }));
+  // Lights and design are those of that time too, not those of where one comes from.
+  const auto tells = [&](const std::string& words) {
+    for (const auto until = std::chrono::steady_clock::now() + kPatience;
+         run.running() && std::chrono::steady_clock::now() < until;)
+      if (control("status").out.find(words) != std::string::npos) return true;
+    return false;
+  };
+  ASSERT_EQ(control("seek 60").code, 0);
+  EXPECT_TRUE(tells("light switch high"));
+  EXPECT_TRUE(tells("design 1 of 2, "));
+  ASSERT_EQ(control("seek 2.57").code, 0);
+  EXPECT_TRUE(tells("light switch low"));
+  EXPECT_TRUE(tells("design 0 of 2, "));
   ASSERT_EQ(control("quit").code, 0);
   EXPECT_EQ(run.wait(), 0);
 }
 
+// A picture that was killed in its midst: the report knows of the frames before too.
+TEST_F(Control, FramesBeforeARestartAreCounted) {
+  DriveRun run(folder_ / "out", folder_.path(), {}, /*lockstep=*/false);
+  const auto rows = [&] {
+    std::ifstream table(folder_ / "out" / "drive.csv");
+    return std::count(std::istreambuf_iterator<char>(table), {}, '\n') - 1;
+  };
+  const auto comes_to = [&](std::ptrdiff_t wanted) {
+    for (const auto until = std::chrono::steady_clock::now() + kPatience;
+         run.running() && std::chrono::steady_clock::now() < until;
+         std::this_thread::sleep_for(std::chrono::milliseconds(20)))
+      if (rows() >= wanted) return true;
+    return false;
+  };
+  ASSERT_TRUE(comes_to(20));
+  ASSERT_EQ(kill(run.processes().at("phare-visual"), SIGKILL), 0);
+  const std::ptrdiff_t before = rows();
+  ASSERT_TRUE(comes_to(before + 10));
+  ASSERT_EQ(control("quit").code, 0);
+  EXPECT_EQ(run.wait(), 0);
+  const nlohmann::json summary = report_of(folder_ / "out")["summary"];
+  EXPECT_GE(summary["frames_before"].get<std::ptrdiff_t>(), before - 1) << "the last row may be cut off";
+  EXPECT_EQ(summary["frames_before"].get<std::ptrdiff_t>() + summary["frames"].get<std::ptrdiff_t>(), rows());
+}
+
+// A simulated car has no past: what was set stays, though the seek names a time that has been.
+TEST_F(Control, ASeekThatIsRefusedChangesNothing) {
+  DriveRun run(folder_ / "out", folder_.path(), {"--closed-loop"}, /*lockstep=*/false);
+  while (run.running() && control("--wait 2 status").out.find(" at 3.") == std::string::npos) {
+  }
+  ASSERT_TRUE(run.running());
+  ASSERT_EQ(control("design 1").code, 0);
+  expect_refused("seek 1", "seek: only in a replayed drive");
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_NE(control("status").out.find("visual-0: design 1 of 2, "), std::string::npos);
+  ASSERT_EQ(control("quit").code, 0);
+  EXPECT_EQ(run.wait(), 0);
+}
+
+// Each instrument that is off is no pass and no view; those that draw over the picture share the overlay's pass.
 TEST_F(Control, InstrumentsThatAreOffCostNoPass) {
   const auto visual = [&](const char* out, const std::vector<std::string>& settings) {
     std::vector<std::string> arguments{"--frames", "4"};

@@ -325,6 +325,18 @@ TEST_F(Folder, AReplayBesideARigIsToldSo) {
   EXPECT_EQ(report_of(out)["summary"]["messages"]["visual-0"]["refused"], 0);
 }
 
+// Nobody takes what is replayed: that is no success.
+TEST_F(Folder, AReplayThatNobodyHearsSaysSo) {
+  const std::string command = "timeout 60 '" + std::string(program("phare")) + "' replay --speed 100 --port-base " +
+                              std::to_string(port_base()) + " '" + source_dir() +
+                              "/config/drives/country_road.pcap' >'" + (folder_ / "told.txt").string() + "' 2>'" +
+                              (folder_ / "said.txt").string() + "'";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 1);
+  EXPECT_NE(contents_of(folder_ / "said.txt").find("phare: nobody listens at 127.0.0.1:"), std::string::npos);
+  EXPECT_EQ(contents_of(folder_ / "told.txt").find(" by "), std::string::npos);
+}
+
 // The page on sending from a program of one's own, as it stands there: it has the key and is answered; without it,
 // nobody listens.
 TEST_F(Folder, TheProgramOfThePageOnSendingIsAnswered) {

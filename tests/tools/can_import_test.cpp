@@ -59,7 +59,7 @@ TEST_F(CanImport, EveryStageIsCounted) {
   ASSERT_TRUE(drive) << drive.error().text();
   const ImportCounts& c = drive->counts;
   EXPECT_NEAR(drive->duration_s, 30.0, 0.1);
-  EXPECT_EQ(c.frames, c.used + c.other_ids + c.undecodable + c.outside);
+  EXPECT_EQ(c.frames, c.used + c.other_ids + c.undecodable + c.repeated + c.outside);
   EXPECT_EQ(c.frames + c.broken_lines, 26904u);
   EXPECT_EQ(c.broken_lines, 0u);
   EXPECT_EQ(c.undecodable, 0u);
@@ -280,6 +280,110 @@ TEST_F(MadeDrive, BrokenLinesAreTold) {
   ASSERT_EQ(drive->notes.size(), whole->notes.size() + 1);
   EXPECT_TRUE(std::ranges::any_of(drive->notes, [](const std::string& note) {
     return note.find("car.log:3004: ") != std::string::npos && note.ends_with("; 2 broken lines are left out");
+  }));
+}
+
+TEST_F(MadeDrive, UnitsAreKnownOrRefused) {
+  std::ifstream file(kDbc);
+  const std::string dbc{std::istreambuf_iterator<char>(file), {}};
+  const auto imported = [&](const std::string& unit, const std::string& of = "km/h") {
+    std::string text = dbc;
+    const std::size_t line = text.find(of == "km/h" ? " SG_ SPEED " : " SG_ STEER_FRACTION ");
+    const std::size_t at = text.find("\"" + of + "\"", line);
+    EXPECT_NE(at, std::string::npos) << of;
+    text.replace(at, of.size() + 2, "\"" + unit + "\"");
+    options_.dbc = folder_ / "unit.dbc";
+    std::ofstream(options_.dbc) << text;
+    return import_can_drive(options_);
+  };
+  // 3600 of hundredths, 100 m in 10 s where it is km/h.
+  for (const auto& [unit, distance_m] : {std::pair{"km/h", 100.0},
+                                         {"KPH", 100.0},
+                                         {"Km/h", 100.0},
+                                         {"Unit_KiloMeterPerHour", 100.0},
+                                         {"m/s", 360.0},
+                                         {"mph", 360.0 * 0.44704},
+                                         {"mi/h", 360.0 * 0.44704},
+                                         {"knots", 360.0 * 1852.0 / 3600.0},
+                                         {"cm/s", 3.6}}) {
+    const auto drive = imported(unit);
+    ASSERT_TRUE(drive) << drive.error().text();
+    EXPECT_NEAR(drive->distance_m, distance_m, 0.01 * distance_m) << unit;
+  }
+  for (const char* unit : {"", "furlongs", "deg"}) {
+    const auto refused = imported(unit);
+    ASSERT_FALSE(refused) << unit;
+    EXPECT_NE(
+        refused.error().text().find("its unit \"" + std::string(unit) + "\" is no speed that is known; --speed-unit"),
+        std::string::npos)
+        << refused.error().text();
+  }
+  options_.signals.speed_unit = "km/h";
+  const auto stated = imported("furlongs");
+  ASSERT_TRUE(stated) << stated.error().text();
+  EXPECT_NEAR(stated->distance_m, 100.0, 1.0);
+  EXPECT_FALSE(imported("", "deg")) << "a sum has one unit";
+}
+
+TEST_F(MadeDrive, APedalThatWasAskedForHasToBeThere) {
+  options_.signals.brake = "NOT.THERE";
+  EXPECT_TRUE(import_can_drive(options_));
+  options_.signals.brake_must = true;
+  EXPECT_FALSE(import_can_drive(options_));
+}
+
+TEST_F(MadeDrive, ALogWhoseClockWasSetIsNoDrive) {
+  const auto whole = import_can_drive(options_);
+  ASSERT_TRUE(whole) << whole.error().text();
+  for (const char* stamp : {"1600000000.0", "1110.5", "905.0"}) {
+    std::ofstream(options_.can_log, std::ios::app) << "(" << stamp << ") can0 200#100E000000000000\n";
+    const auto drive = import_can_drive(options_);
+    ASSERT_FALSE(drive) << stamp;
+    EXPECT_NE(drive.error().text().find("car.log:3004: stamped "), std::string::npos) << drive.error().text();
+    std::filesystem::resize_file(options_.can_log,
+                                 std::filesystem::file_size(options_.can_log) - std::string(stamp).size() - 29);
+  }
+}
+
+TEST_F(MadeDrive, OfSeveralBusesOneIsTaken) {
+  std::ifstream log(options_.can_log);
+  std::string both;
+  for (std::string line; std::getline(log, line);) {
+    both += line + "\n";
+    if (line.find(" 200#") != std::string::npos)
+      both += line.substr(0, line.find(" can0")) + " can1 200#0000000000000000\n";
+  }
+  log.close();
+  std::ofstream(options_.can_log) << both;
+  const auto mixed = import_can_drive(options_);
+  ASSERT_TRUE(mixed) << mixed.error().text();
+  EXPECT_TRUE(std::ranges::any_of(mixed->notes, [](const std::string& note) {
+    return note.find("can0") != std::string::npos && note.find("can1") != std::string::npos;
+  })) << "told";
+  options_.interface = "can0";
+  const auto one = import_can_drive(options_);
+  ASSERT_TRUE(one) << one.error().text();
+  EXPECT_NEAR(one->distance_m, 100.0, 0.5);
+  options_.interface = "can7";
+  EXPECT_FALSE(import_can_drive(options_));
+}
+
+TEST_F(MadeDrive, AHoleInTheLogIsBridgedAndTold) {
+  std::ifstream log(options_.can_log);
+  std::string kept;
+  for (std::string line; std::getline(log, line);)
+    if (const double t_s = std::stod(line.substr(1)) - 1000.0; t_s < 4.0 || t_s > 6.0) kept += line + "\n";
+  log.close();
+  std::ofstream(options_.can_log) << kept;
+  const auto drive = import_can_drive(options_);
+  ASSERT_TRUE(drive) << drive.error().text();
+  EXPECT_NEAR(drive->distance_m, 100.0, 0.5);
+  for (const Datagram& datagram : drive->datagrams)
+    if (const auto* vehicle = std::get_if<VehicleState>(&datagram.payload)) {
+      ASSERT_NEAR(vehicle->speed_mps, 10.0, 0.01) << datagram.sim_time.seconds();
+    }
+  EXPECT_TRUE(std::ranges::any_of(drive->notes, [](const std::string& note) {
+    return note.starts_with("speed: no sample for 2.0") && note.ends_with("bridged");
   }));
 }
 

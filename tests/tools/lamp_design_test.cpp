@@ -195,6 +195,8 @@ TEST_F(OwnLamp, WhatIsRefusedSaysWhichAndWhy) {
   ends(refusal({.low = {low, low}}), "--lamp: given twice; a pair from two files is left=FILE,right=FILE");
   ends(refusal({.low = {low}, .high = {low}}), "low_rht.ies is given twice: it is the low beam already");
   ends(refusal({.low = {low + ",pitch=1"}}), ": no key \"pitch\"; did you mean \"pitch_deg\"?");
+  ends(refusal({.low = {low + ",colour_temperature=4000"}}),
+       ": no key \"colour_temperature\"; did you mean \"colour_temperature_k\"?");
   ends(refusal({.low = {low + ",z=nan"}}), ": \"z\": expected a finite number, got \"nan\"");
   ends(refusal({.low = {low + ",z=-1"}}), ": a lamp sits above the road, z > 0");
   ends(refusal({.low = {low + ",y=-0.6"}}), ": a pair is given by its left lamp, y > 0");

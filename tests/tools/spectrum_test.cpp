@@ -109,7 +109,8 @@ TEST(Spectrum, WrongFilesSayWhereAndWhy) {
   EXPECT_EQ(reason(head + "500,1\n510.1,2\n"), "s.csv:4: wavelength_nm is more than 10 nm beyond the row before");
   EXPECT_EQ(reason(head + "300,1\n305,2\n"), "s.csv: has no power within 360 to 830 nm");
   EXPECT_EQ(reason(head + "500,0\n505,0\n"), "s.csv: has no power within 360 to 830 nm");
-  EXPECT_EQ(reason(head + "500,1\n"), "s.csv: has no power within 360 to 830 nm");
+  EXPECT_EQ(reason(head + "500,1\n"),
+            "s.csv:2: expected two rows or more below this line, between which power is linear");
   EXPECT_EQ(reason(head + "380,1\n385,1\n"), "s.csv: is next to no light: its y is below 0.01");
   EXPECT_EQ(reason("wavelength_nm,watts\n500,1\n"),
             "s.csv:1: expected the columns wavelength_nm and power; there is no power");

@@ -74,6 +74,30 @@ bool read_all(const std::filesystem::path& file) {
   return good;
 }
 
+// What tinygltf calls an invalid binary, or not found, whatever it is.
+TEST(GltfFile, ContainersAndBuffersThatAreWrongSayHow) {
+  const auto why = [](const std::string& name, const std::string& bytes) {
+    const auto model = read_gltf(written(name, bytes));
+    return model ? "" : model.error().text();
+  };
+  std::string glb = one_triangle();
+  glb.replace(16, 4, "BIN ");
+  EXPECT_NE(why("chunks.glb", glb).find("its first chunk is not JSON"), std::string::npos) << why("chunks.glb", glb);
+  glb = one_triangle();
+  glb.replace(8, 4, std::string("\x20\0\0\0", 4));
+  EXPECT_NE(why("short.glb", glb).find("says 32 bytes, of which its JSON chunk alone takes "), std::string::npos)
+      << why("short.glb", glb);
+
+  std::filesystem::create_directories(std::filesystem::path(testing::TempDir()) / "folder.bin");
+  const auto of_buffer = [&](const std::string& uri) {
+    return why("b.gltf", R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":42,"uri":")" + uri + "\"}]}");
+  };
+  EXPECT_NE(of_buffer("ab%20sent.bin").find("its buffer ab sent.bin: no such file"), std::string::npos)
+      << of_buffer("ab%20sent.bin");
+  EXPECT_NE(of_buffer("folder.bin").find("its buffer folder.bin: is a folder"), std::string::npos)
+      << of_buffer("folder.bin");
+}
+
 TEST(GltfFile, NodesMoveTheRoadAndYIsUp) {
   const auto road = RoadSurface::read(written("one.glb", one_triangle()));
   ASSERT_TRUE(road.ok()) << road.error().text();

@@ -150,6 +150,24 @@ TEST(StreetLamps, TheStreetSideLiesTowardYaw) {
   EXPECT_GT(at(0.0, 20.0, {8.0, 0, 0}), 0.0);
 }
 
+// A file whose plane C 0 is the street side, mirrored ones, and the second of a file's lamp sets.
+TEST(StreetLamps, AFileIsReadAsItsLuminaireSays) {
+  const auto at = [](const std::string& keys, const glm::dvec3& point) {
+    const std::string text = "[[luminaire]]\nname = \"even\"\nfile = \"" + even_luminaire(true).string() + "\"\n" +
+                             keys + lamp_text(0, 0, 8);
+    const auto light = FixedLight::of(Scene{}, written("turned.toml", text), std::nullopt);
+    return light ? light->lux_at(point, {0, 0, 1}) : -1.0;
+  };
+  const double lit = 1000.0 * 8.0 / std::pow(64.0 + 25.0, 1.5);
+  EXPECT_NEAR(at("", {5, 0, 0}), lit, 1e-9);
+  // C 90, which is lit, lies a quarter on: to the left of who looks along yaw.
+  EXPECT_NEAR(at("c0_deg = 90\n", {0, 5, 0}), lit, 1e-9);
+  EXPECT_EQ(at("c0_deg = 90\n", {5, 0, 0}), 0.0);
+  EXPECT_NEAR(at("c0_deg = 90\nmirror = true\n", {0, -5, 0}), lit, 1e-9);
+  EXPECT_EQ(at("lamp_set = 2\n", {5, 0, 0}), -1.0) << "the file has one";
+  EXPECT_EQ(at("emitter = 2\n", {5, 0, 0}), -1.0) << "the file has one";
+}
+
 TEST(StreetLamps, WhatStandsHidesAndTheMoonIsALamp) {
   Scene scene = square();
   add_board(scene, {5, -2, 3}, {6, 2, 3});

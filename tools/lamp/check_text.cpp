@@ -53,6 +53,7 @@ void print_check_row(const CheckRow& row) {
 
 nlohmann::json row_json(const CheckRow& row) {
   nlohmann::json one{{"id", row.id}, {"clause", row.clause}, {"unit", row.unit}, {"verdict", verdict_name(row)}};
+  if (!row.open.empty()) one["open"] = row.open;
   // Null: there is nothing to measure.
   const auto number = [&](double value) { return row.has_value ? nlohmann::json(value) : nlohmann::json(); };
   one["value"] = number(row.value());
@@ -117,7 +118,7 @@ std::string verdict_text(const CheckRow& row) {
     case RuleVerdict::kNoData:
       break;
   }
-  return verdict_name(row);
+  return verdict_name(row) + (row.open.empty() ? "" : ", " + row.open);
 }
 
 std::string traffic_source_text(const Judged& judged) {

@@ -62,10 +62,11 @@ struct RoadPlace {
   const char* name;
   double x_m, y_m;
 };
-constexpr RoadPlace kRoad[] = {{"own lane, 25 m", 25, 0},      {"own lane, 50 m", 50, 0},
-                               {"own lane, 75 m", 75, 0},      {"own lane, 100 m", 100, 0},
-                               {"right edge, 50 m", 50, -2.5}, {"left lane, 50 m", 50, 3.5},
-                               {"left edge, 25 m", 25, 5.5}};
+// Edges are the lines of `plot`: lanes of 3.5 m, the lamp over the middle of its own.
+constexpr RoadPlace kRoad[] = {{"own lane, 25 m", 25, 0},       {"own lane, 50 m", 50, 0},
+                               {"own lane, 75 m", 75, 0},       {"own lane, 100 m", 100, 0},
+                               {"right edge, 50 m", 50, -1.75}, {"left lane, 50 m", 50, 3.5},
+                               {"left edge, 25 m", 25, 5.25}};
 
 /// A lamp with what its cut-off looks like.
 struct Lamp {

@@ -1,5 +1,7 @@
 #include "tools/lamp/point_lists.h"
 
+#include <cstdio>
+
 #include "config/formats/toml_table.h"
 #include "tools/lamp/lamp_commands.h"
 #include "visual/photometry/bench/check_points.h"
@@ -21,6 +23,7 @@ Result<std::optional<PointLists>> read_as_points(const std::string& file, const 
   how.known_names = names_of_rows(*rules);
   auto lists = parse_point_lists(*bytes, file, how);
   if (!lists) return lists.error();
+  for (const std::string& warning : lists->warnings) std::fprintf(stderr, "phare: %s\n", warning.c_str());
   return std::optional<PointLists>(std::move(*lists));
 }
 

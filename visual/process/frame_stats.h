@@ -87,6 +87,7 @@ struct FrameStats {
   std::map<Effect, LogHistogram> effect_ms;     ///< frames in which it has a pass
   LogHistogram other_ms;                        ///< every frame that was timed: passes that no effect calls for
   std::uint64_t frames = 0;
+  std::uint64_t frames_before = 0;  ///< in real time: of a process that this one took the place of
   std::uint64_t captured_frames = 0;
   std::uint64_t stale_frames = 0;   ///< drawn with a held pose
   std::uint64_t making_frames = 0;  ///< that had to make a pipeline, which a warm-up should have made

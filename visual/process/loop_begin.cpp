@@ -73,6 +73,7 @@ Loop::Loop(Session& session)
   });
   s_.bus.on_datagram = [this](const Datagram& datagram, std::span<const std::byte>) { take(datagram); };
   if (!session.options.lockstep) drawn_frames_ = std::max(session.album.frames_found(), drive_log_.frames_before());
+  session.stats.frames_before = static_cast<std::uint64_t>(std::max<std::int64_t>(drawn_frames_, 0));
   if (!session.options.lockstep && session.album.wanted()) session.album.write_beside();
   if (!session.options.lockstep) input_.shapes = ShapesFrom::kEither, input_.few_kinds = true;
   warm_up();

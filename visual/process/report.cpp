@@ -79,6 +79,7 @@ nlohmann::json report_json(const Session& session, SimTime now) {
   report["validation_messages"] = session.renderer.validation_messages();
 
   report["frames"] = stats.frames;
+  if (stats.frames_before > 0) report["frames_before"] = stats.frames_before;
   report["frames_per_s"] = stats.frames_per_s();
   report["drawn_s"] = stats.seconds();
   report["frames_captured"] = stats.captured_frames;

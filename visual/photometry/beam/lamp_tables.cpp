@@ -23,6 +23,15 @@ LampReadSettings read_settings(const SourceConfig& source) {
   return settings;
 }
 
+LampReadSettings read_settings(const LuminaireConfig& luminaire) {
+  LampReadSettings settings;
+  settings.c0_turn_deg = luminaire.c0_turn_deg;
+  settings.mirror_h = luminaire.mirror;
+  settings.lamp_set = luminaire.lamp_set;
+  settings.emitter = luminaire.emitter;
+  return settings;
+}
+
 Status LampTables::add(const SourceConfig& source) {
   if (tables_.contains(key(source))) return Done{};
   for (const auto& [other, unused] : tables_) {

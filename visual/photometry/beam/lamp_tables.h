@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "config/rig.h"
+#include "config/street_lamps.h"
 #include "visual/photometry/beam/beam_image.h"
 #include "visual/photometry/beam/pixel_light.h"
 #include "visual/photometry/readers/read_lamp.h"
@@ -16,6 +17,8 @@ namespace phare {
 /// How the file of a mounted source is to be read: everything its configuration says about that. Whoever reads a rig's
 /// lamp reads it so.
 LampReadSettings read_settings(const SourceConfig& source);
+/// The same of a street lamp's file.
+LampReadSettings read_settings(const LuminaireConfig& luminaire);
 
 class LampTables {
  public:

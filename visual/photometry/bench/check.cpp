@@ -363,7 +363,8 @@ void check_side(std::span<const IntensityTable* const> tables, const Rulebook& r
         measured("luminous flux", rule.clause, "lm", flux_lm, flux_lm, flux_lm, rule.flux_min_lm, kNoMaximum);
     row.unconfirmed = rule.rows.front().unconfirmed;
     // What lies outside the table can only add.
-    row.no_data = row.verdict == RuleVerdict::kFail && !beam.covers_the_front();
+    if (row.verdict == RuleVerdict::kFail && !rule.flux_or.empty()) row.open = "or " + rule.flux_or + ": not checked";
+    row.no_data = row.verdict == RuleVerdict::kFail && (!row.open.empty() || !beam.covers_the_front());
     if (row.no_data) row.verdict = RuleVerdict::kNoData;
     rows.push_back(std::move(row));
   }

@@ -26,6 +26,7 @@ struct CheckRow {
   std::string id;
   std::string clause;
   std::string unit;         ///< "cd", "lm", "deg" or "" (G)
+  std::string open{};       ///< what would meet the clause too, and was not looked at; empty: nothing
   double min = kNoMinimum;  ///< limits as they apply, shares of the peak and factors worked out
   double max = kNoMaximum;
   double lowest = 0.0;  ///< over the row's points; of a sum, the sum

@@ -109,6 +109,9 @@ CheckRow PointJudge::judge(const Rulebook& rule, const RuleRow& row) {
         continue;
       }
       take_value(result, *point, row.at[k]);
+      // Measured by direction and by name: both hold.
+      if (const MeasuredPoint* other = row.at.size() == 1 ? named(row.id) : nullptr; other != nullptr)
+        take_value(result, *other, row.at[k]);
       sum += *point->cd;
       open += 0.5 * point->step_cd;
     }

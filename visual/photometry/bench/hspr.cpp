@@ -23,7 +23,10 @@ constexpr double kHighFar_m = 800.0;
 constexpr double kWide_m = 20.0, kWidthStep_m = 0.1;
 constexpr double kThresholds_lx[] = {1.0, 3.0, 5.0};
 
-constexpr const char* kNearestNode = "the method takes the grid's nearest node in place of what lies between";
+constexpr const char* kNearestNode =
+    "the method takes the grid's nearest node in place of what lies between, and its walk's last step of 0.5 m "
+    "(ranges) or "
+    "0.1 m (widths)";
 constexpr const char* kEdge =
     "the method goes on with the edge of its grid beyond 45 deg; physically the table goes on, or is dark";
 constexpr const char* kFluxDeparture =
@@ -60,8 +63,8 @@ std::optional<double> range(const HsprLight& light, HsprView view, const std::ve
   std::vector<Walk> walks;
   for (const double threshold : kThresholds_lx) {
     for (const double x : x_m) {
-      walks.push_back(hspr_walk_in(kFar_m, kRangeStep_m, threshold,
-                                   [&](double s) { return light.lux(view, x + s * sine, y_m, s * cosine); }));
+      walks.push_back(hspr_reach(view, kFar_m, kRangeStep_m, threshold,
+                                 [&](double s) { return light.lux(view, x + s * sine, y_m, s * cosine); }));
       if (walks.back()) *walks.back() *= cosine;
     }
   }
@@ -72,7 +75,7 @@ std::optional<double> range(const HsprLight& light, HsprView view, const std::ve
 double width(const HsprLight& light, HsprView view, const std::vector<double>& z_m, double y_m, double side) {
   double sum = 0.0;
   for (const double z : z_m)
-    sum += hspr_walk_in(kWide_m, kWidthStep_m, 3.0, [&](double x) {
+    sum += hspr_reach(view, kWide_m, kWidthStep_m, 3.0, [&](double x) {
              return light.lux(view, side * x, y_m, z);
            }).value_or(0.0);
   return sum / static_cast<double>(z_m.size());
@@ -224,7 +227,7 @@ HsprResult hspr_high_beam(const std::vector<HsprLamp>& lamps) {
             below ? "the method's ray starts on the road and runs below it, where no light comes" : kNearestNode,
             [&](HsprView view) -> std::optional<double> {
               if (below && view == HsprView::kPhysical) return std::nullopt;
-              return hspr_walk_in(kHighFar_m, kRangeStep_m, 3.0, [&](double s) {
+              return hspr_reach(view, kHighFar_m, kRangeStep_m, 3.0, [&](double s) {
                 return light.lux(view, s * ray.x_m / length, s * ray.y_m / length, s * 100.0 / length);
               });
             });

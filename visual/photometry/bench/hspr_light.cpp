@@ -188,4 +188,16 @@ std::optional<double> hspr_walk_in(double from, double step, double threshold_lx
   }
 }
 
+std::optional<double> hspr_reach(HsprView view, double from, double step, double threshold_lx,
+                                 const std::function<double(double)>& lux_at) {
+  const auto walked = hspr_walk_in(from, step, threshold_lx, lux_at);
+  if (view == HsprView::kMethod || !walked || *walked >= from) return walked;
+  double lit = *walked, dark = lit + step;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (lit + dark);
+    (lux_at(middle) > threshold_lx ? lit : dark) = middle;
+  }
+  return lit;
+}
+
 }  // namespace phare

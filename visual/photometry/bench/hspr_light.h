@@ -80,4 +80,9 @@ class HsprLight {
 std::optional<double> hspr_walk_in(double from, double step, double threshold_lx,
                                    const std::function<double(double)>& lux_at);
 
+/// The method's figure is that of its walk; physically E crosses the threshold within the last step, at a place known
+/// to 2^-40 of the step.
+std::optional<double> hspr_reach(HsprView view, double from, double step, double threshold_lx,
+                                 const std::function<double(double)>& lux_at);
+
 }  // namespace phare

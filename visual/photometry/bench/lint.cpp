@@ -21,6 +21,7 @@ constexpr double kFluxTolerance = 0.02;   // between integral and header: roundi
 constexpr double kLitEdge_01 = 0.01;      // of the peak: a table that ends brighter is cut off
 constexpr double kNoise_01 = 0.001;       // of the peak: zeros among values below this are the end of the photometer
 constexpr double kSpike = 5.0;            // a value this many times all its neighbours is no optics
+constexpr double kSameDirection_01 = 0.02;  // of the peak: one direction twice may differ by what a goniometer does
 constexpr double kAhead_deg = 30.0;       // a headlamp's peak farther off its axis than this: wrong axis
 constexpr double kCutoffStep_deg = 0.05;  // the step in which the rules measure G
 constexpr double kLeastCutoffG = 0.13;    // the least sharpness that the rules accept
@@ -79,6 +80,7 @@ class Linter {
     cutoff();
     orientation();
     edges();
+    one_direction_twice();
     broken_values();
     steps();
     std::stable_sort(report_.findings.begin(), report_.findings.end(),
@@ -96,11 +98,12 @@ class Linter {
     if (header.units == "feet") add(Grade::kInfo, "feet", "sizes are in feet; candela do not depend on it");
     if (!header.absolute)
       add(Grade::kInfo, "relative", "relative photometry: candela belong to the rated lumens of the lamp");
-    if (header.multiplier * header.ballast_factor * (header.field_12_applied ? header.field_12 : 1.0) != 1.0) {
-      add(Grade::kInfo, "factors",
-          format("values are multiplied by %g × %g × %g (multiplier, ballast factor, field 12)", header.multiplier,
-                 header.ballast_factor, header.field_12_applied ? header.field_12 : 1.0));
-    }
+    std::string factors;
+    for (const auto& [name, factor] : {std::pair{"the multiplier", header.multiplier},
+                                       {"the ballast factor", header.ballast_factor},
+                                       {"field 12", header.field_12_applied ? header.field_12 : 1.0}})
+      if (factor != 1.0) factors += (factors.empty() ? "" : " and by ") + (name + format(" %g", factor));
+    if (!factors.empty()) add(Grade::kInfo, "factors", "values are multiplied by " + factors);
     if (!header.generation.empty()) add(Grade::kInfo, "generation", "file generation: " + header.generation);
     if (!header.symmetry.empty() && header.symmetry != "none")
       add(Grade::kInfo, "symmetry", "stored with symmetry " + header.symmetry + "; unfolded");
@@ -288,7 +291,9 @@ class Linter {
     for (std::size_t j = 0; j < rows; ++j) {
       for (std::size_t i = 0; i < columns; ++i) {
         const bool edge_h = !round && (i == 0 || i + 1 == columns);
-        const bool edge_v = round ? j + 1 == rows && table_.second_deg[j] < 180.0 : j == 0 || j + 1 == rows;
+        const bool edge_v =
+            round ? (j == 0 && table_.second_deg[j] > 0.0) || (j + 1 == rows && table_.second_deg[j] < 180.0)
+                  : j == 0 || j + 1 == rows;
         if ((edge_h || edge_v) && table_.candela[j * columns + i] > brightest) {
           brightest = table_.candela[j * columns + i];
           at = j * columns + i;
@@ -299,6 +304,30 @@ class Linter {
       add(Grade::kWarning, "cut-table",
           format("the table ends in light: %.0f cd at %g, %g; beyond it the lamp is dark", brightest,
                  table_.first_deg[at % columns], table_.second_deg[at / columns]));
+    }
+  }
+
+  /// One direction that the table has in several columns: gamma 0 and 180 in all, C 0 as C 360.
+  void one_direction_twice() {
+    if (table_.type != PhotometricType::kC) return;
+    const std::size_t columns = table_.first_deg.size(), rows = table_.second_deg.size();
+    const auto differ = [&](double least, double most) { return most - least > kSameDirection_01 * report_.peak_cd; };
+    for (const std::size_t j : {std::size_t{0}, rows - 1}) {
+      if (table_.second_deg[j] != 0.0 && table_.second_deg[j] != 180.0) continue;
+      const auto row = table_.candela.begin() + static_cast<std::ptrdiff_t>(j * columns);
+      const auto [least, most] = std::minmax_element(row, row + static_cast<std::ptrdiff_t>(columns));
+      if (differ(*least, *most))
+        add(Grade::kWarning, "pole",
+            format("gamma %g is one direction, which has %.4g to %.4g cd in the file", table_.second_deg[j], *least,
+                   *most));
+    }
+    if (table_.first_deg.front() != 0.0 || table_.first_deg.back() != 360.0) return;
+    for (std::size_t j = 0; j < rows; ++j) {
+      const double begin = table_.candela[j * columns], end = table_.candela[(j + 1) * columns - 1];
+      if (!differ(std::min(begin, end), std::max(begin, end))) continue;
+      add(Grade::kWarning, "seam",
+          format("C 0 and C 360 are one plane, but %.4g and %.4g cd at gamma %g", begin, end, table_.second_deg[j]));
+      return;
     }
   }
 

@@ -128,6 +128,7 @@ Result<Rulebook> read_rulebook(const std::filesystem::path& file) {
   rule.market = table.text_or("market", "");
   rule.half_sum = table.flag_or("half_sum", false);
   rule.flux_min_lm = table.number_or("flux_min_lm", 0.0, 0.0, 1e6);
+  rule.flux_or = table.text_or("flux_or", "");
   const std::string unconfirmed = table.text_or("unconfirmed", "");
   for (TomlTable& aim : table.tables("aim")) rule.cutoff_aims.push_back(read_aim(aim, rule.clause));
   if (auto reaim = table.table_if("reaim")) {

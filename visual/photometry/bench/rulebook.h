@@ -61,6 +61,7 @@ struct Rulebook {
   std::string market;                ///< where it holds: "ECE", "US"; empty: not said
   bool half_sum = false;             ///< limits hold for half the sum of both sides' lamps
   double flux_min_lm = 0.0;
+  std::string flux_or;                 ///< what the clause takes in place of so much flux, not checked; empty: nothing
   std::vector<CutoffAim> cutoff_aims;  ///< empty: as filed; several: the one with the sharpest cut-off is used
   double reaim_left_deg = 0.0, reaim_right_deg = 0.0, reaim_up_deg = 0.0, reaim_down_deg = 0.0;  ///< of the whole beam
   double point_reaim_deg = 0.0;  ///< of each row by itself, any direction (FMVSS 108 S14.2.5)

@@ -53,13 +53,14 @@ class Eulumdat {
   bool body_fits(std::size_t begin, std::size_t gamma_count);
   Status read_body();
   void unfold();
+  void note_steps();  ///< where the angles are not as far apart as the header says
 
   std::string name_;
   const LampReadSettings& settings_;
   std::vector<Line> lines_;
   IntensityTable table_;
   std::size_t isym_ = 0, c_count_ = 0, gamma_count_ = 0, plane_count_ = 0, set_count_ = 0;
-  double gamma_step_deg_ = 0.0, scale_ = 0.0;
+  double c_step_deg_ = 0.0, gamma_step_deg_ = 0.0, scale_ = 0.0;
   std::size_t body_ = 0, after_flux_ = 0;
   std::size_t decimal_commas_ = 0, first_comma_ = 0;
   std::vector<double> c_deg_, gamma_deg_, planes_;
@@ -122,6 +123,7 @@ Status Eulumdat::read_header() {
     return Error{place(5), std::to_string(plane_count_) + " × " + std::to_string(gamma_count_) +
                                " intensities cannot be in a file of " + std::to_string(lines_.size()) + " lines"};
   }
+  c_step_deg_ = value_at(4).value_or(0.0);
   gamma_step_deg_ = value_at(6).value_or(0.0);
   constexpr const char* kSymmetries[] = {"none", "about the axis", "about the plane C0-C180",
                                          "about the plane C90-C270", "quadrant"};
@@ -141,6 +143,9 @@ Status Eulumdat::read_header() {
   if (*conversion != 1.0)
     table_.notes.push_back(place(23) + ": intensities multiplied by the conversion factor " + number_text(*conversion));
   header.multiplier = *conversion;
+  if (const double tilt = value_at(24).value_or(0.0); tilt != 0.0)
+    table_.notes.push_back(place(24) + ": measured with the luminaire tilted by " + number_text(tilt) +
+                           " deg (25); angles are read as they stand, of the tilted one");
   return Done{};
 }
 
@@ -270,6 +275,22 @@ Status Eulumdat::read_body() {
   return Done{};
 }
 
+void Eulumdat::note_steps() {
+  const auto note = [&](std::size_t line, const char* what, double step_deg, const std::vector<double>& angles) {
+    if (!(step_deg > 0.0)) return;
+    for (std::size_t i = 1; i < angles.size(); ++i) {
+      const double is = angles[i] - angles[i - 1];
+      if (std::abs(is - step_deg) <= 1e-6) continue;
+      table_.notes.push_back(place(line) + ": " + what + " is " + number_text(step_deg) + " deg, but " +
+                             number_text(angles[i]) + " follows " + number_text(angles[i - 1]) +
+                             "; the angles themselves count");
+      return;
+    }
+  };
+  note(4, "the distance Dc of C planes (5)", c_step_deg_, c_deg_);
+  note(6, "the distance Dg of gamma angles (7)", gamma_step_deg_, gamma_deg_);
+}
+
 void Eulumdat::unfold() {
   const auto add = [&](double c, std::size_t plane) {
     c = std::fmod(c + 720.0, 360.0);
@@ -310,11 +331,13 @@ Result<IntensityTable> Eulumdat::read() {
   if (const Status status = find_body(); !status) return status.error();
   if (const Status status = read_body(); !status) return status.error();
   unfold();
+  note_steps();
   if (columns_.front().angle_deg != 0.0)
     return Error{place(body_), "no C plane at 0 after the symmetry Isym " + std::to_string(isym_) + " is undone"};
-  if (isym_ == 0 && c_deg_.back() < 360.0 && c_count_ > 1 && 360.0 - c_deg_.back() > 181.0)
-    return Error{place(body_ + c_count_ - 1),
-                 "the C angles end at " + number_text(c_deg_.back()) + " although Isym is 0"};
+  // Two planes 180° apart are a whole turn; more that end there are half of one.
+  if (isym_ == 0 && c_count_ > 2 && 360.0 - c_deg_.back() > 179.0)
+    return Error{place(body_ + c_count_ - 1), "the C angles end at " + number_text(c_deg_.back()) +
+                                                  " although Isym is 0: the other half is missing (2: it is the same)"};
   if (decimal_commas_ > 0) {
     table_.notes.push_back(name_ + ":" + std::to_string(first_comma_) + ": decimal comma read as a point, " +
                            std::to_string(decimal_commas_) + " time(s)");

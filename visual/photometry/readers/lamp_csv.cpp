@@ -51,6 +51,8 @@ class LampCsv {
   Result<double> number(std::string_view field, const std::string& what);
   Status read_matrix(const std::vector<std::string_view>& head);
   Status read_list(const std::vector<std::string_view>& head);
+  /// Of a list of directions, whose angles stand in several lines: at its end.
+  Error at_angle(bool columns, std::size_t i, std::string reason) const;
   Status check_and_sort(std::vector<double>& nodes, bool columns);
   Status to_candela();
 
@@ -66,7 +68,14 @@ class LampCsv {
   Axis row_axis_ = Axis::kNone, column_axis_ = Axis::kNone;
   bool type_stated_ = false;
   double distance_m_ = 0.0;
+  std::vector<std::size_t> first_lines_, second_lines_;  ///< where the angles of a matrix stand
 };
+
+Error LampCsv::at_angle(bool columns, std::size_t i, std::string reason) const {
+  const std::vector<std::size_t>& lines = columns ? first_lines_ : second_lines_;
+  if (i >= lines.size()) return text_.error(std::move(reason));
+  return {table_.name + ":" + std::to_string(lines[i]), std::move(reason)};
+}
 
 std::vector<std::string_view> LampCsv::fields(std::string_view line) const {
   std::vector<std::string_view> result;
@@ -149,8 +158,9 @@ Status LampCsv::check_and_sort(std::vector<double>& nodes, bool columns) {
   const bool descending = nodes[1] < nodes[0];
   for (std::size_t i = 1; i < nodes.size(); ++i) {
     if (!(descending ? nodes[i] < nodes[i - 1] : nodes[i] > nodes[i - 1])) {
-      return text_.error("the " + what + " angles go neither up nor down all the way: " + number_text(nodes[i]) +
-                         " follows " + number_text(nodes[i - 1]));
+      return at_angle(columns, i,
+                      "the " + what + " angles go neither up nor down all the way: " + number_text(nodes[i]) +
+                          " follows " + number_text(nodes[i - 1]));
     }
   }
   if (!descending) return Done{};
@@ -184,6 +194,7 @@ Status LampCsv::read_matrix(const std::vector<std::string_view>& head) {
     const auto angle = number(head[i], "column " + std::to_string(i));
     if (!angle) return angle.error();
     table_.first_deg.push_back(*angle);
+    first_lines_.push_back(text_.line());
   }
   const std::size_t columns = table_.first_deg.size();
   if (columns == 0) return text_.error("no columns");
@@ -210,6 +221,7 @@ Status LampCsv::read_matrix(const std::vector<std::string_view>& head) {
       }
       if (field == 0) {
         table_.second_deg.push_back(*value);
+        second_lines_.push_back(text_.line());
       } else {
         if (*value < 0.0) return text_.error("negative value " + number_text(*value));
         table_.candela.push_back(*value);
@@ -231,6 +243,7 @@ Status LampCsv::read_matrix(const std::vector<std::string_view>& head) {
     }
     table_.candela = std::move(values);
     std::swap(table_.first_deg, table_.second_deg);
+    std::swap(first_lines_, second_lines_);
     std::swap(row_axis_, column_axis_);
   }
   return Done{};
@@ -345,9 +358,11 @@ Status LampCsv::to_candela() {
     const double first_max = table_.type == PhotometricType::kB ? 90.0 : is_c ? 360.0 : 180.0;
     const double second_max = table_.type == PhotometricType::kA ? 90.0 : 180.0;
     for (const auto& [nodes, max] : {std::pair{&table_.first_deg, first_max}, {&table_.second_deg, second_max}}) {
-      for (const double angle : *nodes) {
+      for (std::size_t i = 0; i < nodes->size(); ++i) {
+        const double angle = (*nodes)[i];
         if (std::abs(angle) > max || (is_c && angle < 0.0))
-          return text_.error("the angle " + number_text(angle) + " is outside this type's range");
+          return at_angle(nodes == &table_.first_deg, i,
+                          "the angle " + number_text(angle) + " is outside this type's range");
       }
     }
   }

@@ -108,6 +108,14 @@ std::optional<double> cell_number(std::string cell, char separator) {
   return parse_number(cell);
 }
 
+/// Three digits and no more behind one mark, as behind a mark of thousands: "5,000", "15.100"; what is below 1 is not.
+bool looks_like_thousands(std::string_view cell) {
+  const std::size_t mark = cell.find_first_of(",.");
+  return mark != std::string_view::npos && mark >= 1 && mark <= 3 && cell.front() != '0' && cell.size() == mark + 4 &&
+         std::all_of(cell.begin() + static_cast<std::ptrdiff_t>(mark) + 1, cell.end(),
+                     [](char c) { return c >= '0' && c <= '9'; });
+}
+
 /// "1", "0.86", "1/2", "1 1/2", "1-1/2"; letters and signs around are gone.
 std::optional<double> angle_number(std::string text) {
   for (char& c : text) {
@@ -166,6 +174,10 @@ class ListReader {
     std::size_t points = 0;
     for (const PointList& beam : lists_.beams) points += beam.points.size();
     if (points == 0) return text_.error("the list has no points");
+    if (marked_ > 0 && marked_ == like_thousands_ && !beyond_thousand_)
+      lists_.warnings.push_back(lists_.name + ":" + std::to_string(first_marked_line_) + ": " +
+                                in_quotes(first_marked_) + " is read as " + number_text(first_marked_value_) +
+                                ", as all values of three digits behind their mark; thousands are written without one");
     return std::move(lists_);
   }
 
@@ -271,6 +283,18 @@ class ListReader {
     return point;
   }
 
+  /// Whether all values may have been meant as thousands is known at the end.
+  void note_mark(const std::string& cell, double number) {
+    beyond_thousand_ = beyond_thousand_ || number >= 1000.0;
+    if (cell.find_first_of(",.") == std::string::npos) return;
+    if (marked_++ == 0) {
+      first_marked_ = cell;
+      first_marked_value_ = number;
+      first_marked_line_ = text_.line();
+    }
+    like_thousands_ += looks_like_thousands(cell) ? 1 : 0;
+  }
+
   Status read_row(std::string_view line) {
     std::vector<std::string> cells = cells_of(line, separator_);
     while (cells.size() > columns_ && cells.back().empty()) cells.pop_back();
@@ -296,6 +320,7 @@ class ListReader {
         const auto number = cell_number(cell, separator_);
         if (!number) return text_.error("the value at " + in_quotes(point->name) + " is no number: " + in_quotes(cell));
         if (*number < 0.0) return text_.error("negative value " + number_text(*number));
+        if (!value.lux) note_mark(cell, *number);
         const double factor = value.lux ? lists_.distance_m * lists_.distance_m : 1.0;
         std::string digits = cell;
         if (separator_ != ',') std::replace(digits.begin(), digits.end(), ',', '.');
@@ -323,7 +348,10 @@ class ListReader {
   PointLists lists_;
   std::set<std::string> known_;
   char separator_ = ',';
-  bool all_lux_ = false;
+  bool all_lux_ = false, beyond_thousand_ = false;
+  std::size_t marked_ = 0, like_thousands_ = 0, first_marked_line_ = 0;  // values with a mark
+  std::string first_marked_;
+  double first_marked_value_ = 0.0;
   std::size_t columns_ = 0;
   std::optional<std::size_t> point_, beam_, h_, v_;
   std::vector<Value> values_;

@@ -41,6 +41,7 @@ struct PointLists {
   std::vector<PointList> beams;
   double distance_m = 0.0;  ///< of a list in lux
   std::vector<std::string> notes;
+  std::vector<std::string> warnings;  ///< "file:line: …": what may have been meant otherwise
 };
 
 struct PointListSettings {

@@ -181,6 +181,8 @@ Result<AnglesFile> read_angles(const std::filesystem::path& path) {
 }
 
 double intensity_of_row_cd(const IntensityTable& table, TableAngles angles) {
+  // C goes round: -10° is 350°.
+  if (table.type == PhotometricType::kC) angles.first_deg -= 360.0 * std::floor(angles.first_deg / 360.0);
   return table.screen_distance_m > 0.0 ? table.intensity_cd(direction_hv(angles.first_deg, angles.second_deg))
                                        : table.intensity_at_cd(angles);
 }

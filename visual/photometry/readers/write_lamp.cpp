@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "visual/photometry/readers/file_text.h"
@@ -150,6 +151,34 @@ std::string lm63_text(const IntensityTable& given, const std::string& generation
   return text;
 }
 
+namespace {
+
+/// How far apart the angles are, of the first `count`; 0: not evenly.
+double even_step_deg(std::span<const double> angles) {
+  if (angles.size() < 2) return 0.0;
+  const double step = angles[1] - angles[0];
+  for (std::size_t i = 2; i < angles.size(); ++i)
+    if (std::abs(angles[i] - angles[i - 1] - step) > 1e-6) return 0.0;
+  return step;
+}
+
+/// The share of the flux of a table of type C that goes down, below gamma 90.
+double downward_share(const IntensityTable& table) {
+  const double whole_lm = table.flux_lm();
+  if (table.second_deg.back() <= 90.0 || !(whole_lm > 0.0)) return 1.0;
+  if (table.second_deg.front() >= 90.0) return 0.0;
+  IntensityTable down = table;
+  std::size_t rows = 0;
+  while (table.second_deg[rows] < 90.0) ++rows;
+  down.second_deg.resize(rows);
+  down.candela.resize(rows * table.first_deg.size());
+  for (const double c : table.first_deg) down.candela.push_back(table.intensity_at_cd({c, 90.0}));
+  down.second_deg.push_back(90.0);
+  return down.flux_lm() / whole_lm;
+}
+
+}  // namespace
+
 std::string eulumdat_text(const IntensityTable& given, GammaAxis axis) {
   IntensityTable on_grid;
   const IntensityTable* table = &given;
@@ -177,9 +206,13 @@ std::string eulumdat_text(const IntensityTable& given, GammaAxis axis) {
   std::string text;
   const auto line = [&text](const std::string& value) { text += value.substr(0, 78) + "\r\n"; };
   line(keyword(given, "MANUFAC", "unknown"));
-  for (const std::string& value : {std::string("3"), std::string("0"), std::to_string(planes), std::string("0"),
-                                   std::to_string(table->second_deg.size()), std::string("0")})
-    line(value);
+  const bool same_all_round = planes == 1;
+  line(same_all_round ? "1" : "3");
+  line(same_all_round ? "1" : "0");
+  line(std::to_string(planes));
+  line(number_text(same_all_round ? 0.0 : even_step_deg(table->first_deg)));
+  line(std::to_string(table->second_deg.size()));
+  line(number_text(even_step_deg(table->second_deg)));
   line(keyword(given, "TEST", "unknown"));
   line(keyword(given, "LUMINAIRE", given.name));
   line(keyword(given, "LUMCAT", given.name));
@@ -192,7 +225,7 @@ std::string eulumdat_text(const IntensityTable& given, GammaAxis axis) {
   const std::string height_mm = size_text(1e3 * std::abs(header.height_m));
   for (const std::string& value : {length_mm, width_mm, height_mm, length_mm, width_mm}) line(value);
   for (int i = 0; i < 4; ++i) line(height_mm);  // as seen from C 0, 90, 180 and 270
-  line("100");
+  line(size_text(100.0 * downward_share(*table)));
   line(relative ? number_text(100.0 * table->flux_lm() / flux_lm) : "100");
   for (const char* value : {"1", "0", "1"}) line(value);
   line(relative ? number_text(header.lamp_count > 0.0 ? header.lamp_count : 1.0) : "-1");

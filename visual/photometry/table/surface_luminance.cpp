@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -45,11 +46,18 @@ AxisPlace place_on(const std::vector<double>& nodes, double at) {
   return {cell, std::clamp((at - nodes[cell]) / (nodes[cell + 1] - nodes[cell]), 0.0, 1.0)};
 }
 
-Result<std::vector<double>> numbers_of(const std::string& line, std::size_t skip) {
+std::string plain_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+Result<std::vector<double>> numbers_of(std::string line, char separator, std::size_t skip) {
+  if (separator == ';') std::ranges::replace(line, ',', '.');
   std::vector<double> numbers;
   std::size_t column = 0;
   for (std::size_t begin = 0; begin <= line.size(); ++column) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
+    const std::size_t end = std::min(line.find(separator, begin), line.size());
     double value = 0.0;
     const auto [stop, failed] = std::from_chars(line.data() + begin, line.data() + end, value);
     if (column >= skip) {
@@ -119,6 +127,7 @@ Result<ReducedLuminanceTable> read_r_table(const std::filesystem::path& file) {
   if (!in) return Error{file.string(), "cannot be read"};
   ReducedLuminanceTable table;
   std::string line;
+  char separator = ',';
   for (int number = 1; std::getline(in, line); ++number) {
     if (line.ends_with('\r')) line.pop_back();
     if (line.empty() || line.front() == '#') continue;
@@ -126,23 +135,33 @@ Result<ReducedLuminanceTable> read_r_table(const std::filesystem::path& file) {
       return Error{file.string() + ":" + std::to_string(number), reason};
     };
     const bool head = table.beta_deg.empty();
-    const auto numbers = numbers_of(line, head ? 1 : 0);
+    if (head && line.find(';') != std::string::npos) separator = ';';
+    const auto numbers = numbers_of(line, separator, head ? 1 : 0);
     if (!numbers) return fail(numbers.error().reason);
     const auto rises = [](double a, double b) { return b <= a; };
     if (head) {
       table.beta_deg = *numbers;
       if (table.beta_deg.size() < 2 || std::ranges::adjacent_find(*numbers, rises) != numbers->end())
         return fail("expected two angles or more that rise");
+      if (table.beta_deg.front() != 0.0 || table.beta_deg.back() != 180.0)
+        return fail("expected angles from 0 to 180, got " + plain_number(table.beta_deg.front()) + " to " +
+                    plain_number(table.beta_deg.back()));
       continue;
     }
     if (numbers->size() != table.beta_deg.size() + 1)
       return fail("expected tan gamma and " + std::to_string(table.beta_deg.size()) + " values, got " +
                   std::to_string(numbers->size()) + " numbers");
     if (!table.tan_gamma.empty() && numbers->front() <= table.tan_gamma.back()) return fail("tan gamma has to rise");
+    if (std::ranges::any_of(*numbers, [](double value) { return value < 0.0; })) return fail("a negative number");
+    // Of light from straight above there is no β.
+    const auto [least, most] = std::minmax_element(numbers->begin() + 1, numbers->end());
+    if (numbers->front() == 0.0 && *most - *least > 0.01 * *most)
+      return fail("light from straight above has one r, got " + plain_number(*least) + " to " + plain_number(*most));
     table.tan_gamma.push_back(numbers->front());
     for (std::size_t i = 1; i < numbers->size(); ++i) table.r_per_sr.push_back((*numbers)[i] * 1e-4);
   }
   if (table.tan_gamma.size() < 2) return Error{file.string(), "expected two lines of tan gamma or more"};
+  if (*std::ranges::max_element(table.r_per_sr) <= 0.0) return Error{file.string(), "the road sends no light back"};
   return table;
 }
 

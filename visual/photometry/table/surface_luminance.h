@@ -46,8 +46,8 @@ struct ReducedLuminanceTable {
 double road_luminance_cdm2(const ReducedLuminanceTable& table, double intensity_cd, const glm::dvec3& lamp_m,
                            const glm::dvec3& point_m, const glm::dvec3& eye_m);
 
-/// From CSV: lines of comment with #, a head line "NAME,0,2,5,…" with β in degrees, then lines of tan γ and r times
-/// 10⁴. Error: line and reason.
+/// From CSV (commas, or semicolons with decimal commas): lines of comment with #, a head line "NAME,0,2,5,…" with β in
+/// degrees, then lines of tan γ and r times 10⁴. Error: line and reason.
 Result<ReducedLuminanceTable> read_r_table(const std::filesystem::path& file);
 
 }  // namespace phare
