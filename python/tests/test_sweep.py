@@ -75,7 +75,7 @@ def test_traffic_needs_no_law(tmp_path):
 
 
 def test_traffic_is_in_the_drive_of_a_law_too(tmp_path):
-    (tmp_path / "cars.toml").write_text("")
+    (tmp_path / "cars.toml").write_text(phare.shipped_file("examples/column.toml").read_text())
     job = sweep.read_plan(plan_of(tmp_path, "[fixed]\ntraffic = 'cars.toml'\nlaw = 'GlareFree'\n[vary]\naim = [1]\n")).jobs[0]
     words = drive_words(job)
     assert words["more"][-2:] == ["--traffic", str(tmp_path.resolve() / "cars.toml")] and words["sensors"].road_users == words["more"][-1]
