@@ -5,7 +5,11 @@
 layout(push_constant) uniform Push { SkyConstants sky; };
 layout(location = 0) in vec3 direction;
 layout(location = 1) in vec3 vertex_colour;
-layout(location = 0) out vec3 colour;
+#ifdef PHARE_FLAT
+layout(location = 0) flat out vec3 colour;
+#else
+layout(location = 0) noperspective out vec3 colour;  // bands are low, and no division is needed
+#endif
 
 // At infinity.
 void main() {

@@ -198,6 +198,11 @@ class Checker {
       return false;
     }
     const IntensityTable& table = tables_.of(source);
+    if (!source.pixels.empty() && table.peak_cd() <= 0.0) {  // a law or a program gives it others
+      if (looked_at_.insert(source.pixels).second)
+        found_.notes.push_back(source.pixels.string() + ": a black picture: this pixel light begins dark");
+      return true;
+    }
     const bool ahead = source.function == LampFunction::kCornering || lights_ahead(source, table);
     if (!ahead && bad_files_.insert(source.file).second)
       problem({source.file.string(), "sends no light ahead: look at axis, c0_deg, yaw_deg, pitch_deg and roll_deg"});

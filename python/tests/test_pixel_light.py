@@ -21,6 +21,20 @@ LOOP = dict(frames=12, **SMALL)
 # ---- in the loop
 
 
+def test_a_pixel_light_that_begins_dark_is_no_problem(tmp_path):
+    (tmp_path / "full.csv").write_text("h_deg,v_deg,intensity_cd\n" + "".join(f"{h},{v},60000\n" for v in (-4, 4) for h in (-8, 8)))
+    (tmp_path / "dark.pgm").write_bytes(b"P5 64 32 255\n" + bytes(64 * 32))
+    rig = phare.Rig.shipped("country_road")
+    problems = rig.problems()
+    for lamp in rig.designs[0].lamps:
+        if lamp.name == "headlamp":
+            lamp.sources.append(phare.Source("high", str(tmp_path / "full.csv"), more={"pixels": str(tmp_path / "dark.pgm")}))
+    assert rig.problems() == problems
+    (tmp_path / "full.csv").write_text("h_deg,v_deg,intensity_cd\n" + "".join(f"{h},{v},0\n" for v in (-4, 4) for h in (-8, 8)))
+    rig.designs[0].lamps[0].sources[-1].more = {}
+    assert rig.problems() != problems  # without a picture it is a lamp that sends no light
+
+
 def test_a_law_gives_a_pixel_light_its_pictures(moving, tmp_path):
     """In lockstep each frame shows the picture of its own answer: twice the same drive, and another one with other pictures."""
     (tmp_path / "full.csv").write_text("h_deg,v_deg,intensity_cd\n" + "".join(f"{h},{v},60000\n" for v in (-4, 4) for h in (-8, 8)))

@@ -78,12 +78,11 @@ PHARE_INLINE vec3 srgb_encoded(vec3 linear) {
 }
 
 /// To be added to a signal before it is rounded to 8 bits, by the pixel's place: between two steps neighbours take the
-/// one and the other by turns, so that a slow gradient shows no bands. Within half a step; what is a step stays.
-/// Interleaved gradient noise (Jimenez 2014).
+/// one and the other by turns, so that a slow gradient shows no bands. Within half a step; what is a step stays. The
+/// sequence R2 (Roberts 2018) over rows and columns, in which places near each other differ most.
 PHARE_INLINE float dither(vec2 pixel) {
-  float across = 0.06711056f * pixel.x + 0.00583715f * pixel.y;
-  float turn = 52.9829189f * (across - floor(across));
-  return (0.998f * (turn - floor(turn)) - 0.499f) * (1.0f / 255.0f);
+  float turn = 0.75487767f * pixel.x + 0.56984029f * pixel.y;
+  return (turn - floor(turn)) * (0.998f / 255.0f) - 0.499f / 255.0f;
 }
 
 PHARE_SHADER_END

@@ -24,11 +24,35 @@ Sky sky_exposed(float per_cdm2) {
   return {glm::vec3(1.1f, 1.0f, 0.8f) * per_cdm2, ViewInput{}.sky_luminance_cdm2};
 }
 
-// From black through the exposures that are used to white: what is blended is within half a step of the display.
-TEST(Sky, EveryElevationIsWithinHalfAStepOfItsColour) {
+// From black through the exposures that are used to white: no elevation is shown a step of the display off.
+TEST(Sky, EveryElevationIsWithinAStepOfItsColour) {
   for (const float exposure : {1e-3f, 0.3f, 3.0f, 30.0f, 300.0f, 3e4f}) {
     const Sky sky = sky_exposed(exposure);
-    const std::vector<SkyBand> bands = sky_bands(sky, false);
+    const std::vector<SkyBand> bands = sky_bands(sky, SkyKind::kFlat);
+    EXPECT_EQ(bands.front().low, 0.0f);
+    EXPECT_EQ(bands.back().high, 1.0f);
+    for (std::size_t i = 0; i < bands.size(); ++i) {
+      if (i > 0) {
+        EXPECT_EQ(bands[i].low, bands[i - 1].high);
+      }
+      EXPECT_EQ(bands[i].colour_low, bands[i].colour_high);
+      for (double t = 0.0; t <= 1.0; t += 0.125) {
+        const double sine = static_cast<double>(bands[i].low) * (1.0 - t) + static_cast<double>(bands[i].high) * t;
+        const glm::vec3 off = glm::abs(255.0f * bands[i].colour_low - formula(sky, sine));
+        // Half a step by rounding, half by the band, whose middle in sine is not quite its middle in colour.
+        EXPECT_LT(static_cast<double>(std::max({off.x, off.y, off.z})), 1.1) << exposure << " " << sine;
+      }
+    }
+  }
+  EXPECT_EQ(sky_bands(sky_exposed(1e-3f), SkyKind::kFlat).size(), 1u) << "a black sky is one band";
+  EXPECT_GT(sky_bands(sky_exposed(3.0f), SkyKind::kFlat).size(), 5u);
+}
+
+// What is blended is within half a step of the display.
+TEST(Sky, WhatIsBlendedIsWithinHalfAStepOfItsColour) {
+  for (const float exposure : {1e-3f, 0.3f, 3.0f, 30.0f, 300.0f, 3e4f}) {
+    const Sky sky = sky_exposed(exposure);
+    const std::vector<SkyBand> bands = sky_bands(sky, SkyKind::kBlended);
     EXPECT_EQ(bands.front().low, 0.0f);
     EXPECT_EQ(bands.back().high, 1.0f);
     for (std::size_t i = 0; i < bands.size(); ++i) {
@@ -78,7 +102,7 @@ TEST(Dither, LeavesTheMeanAndWholeSteps) {
 TEST(Sky, BlendedBandsOfAnHdrImageAreCloseToTheFormula) {
   const Sky sky = sky_exposed(3.0f);
   double worst = 0.0;
-  for (const SkyBand& band : sky_bands(sky, true))
+  for (const SkyBand& band : sky_bands(sky, SkyKind::kHdr))
     for (double t = 0.0; t <= 1.0; t += 0.05) {
       const auto point = [](float sine) {
         const double s = static_cast<double>(sine);

@@ -9,7 +9,9 @@
 #include "shaders/lib/tone.h"
 #include "shaders/sky.h"
 #include "shaders/sky_frag.h"
+#include "shaders/sky_frag_flat.h"
 #include "shaders/sky_vert.h"
+#include "shaders/sky_vert_flat.h"
 #include "visual/lit_scene.h"
 
 namespace phare {
@@ -36,6 +38,31 @@ struct SkyVertex {
   glm::vec3 direction, colour;
 };
 static_assert(sizeof(SkyVertex) == 24);
+
+std::vector<SkyBand> bands_of_display(const Sky& sky) {
+  const glm::vec3 horizon = 255.0f * shown(sky, 0.0), zenith = 255.0f * shown(sky, 1.0), fall = horizon - zenith;
+  const int channel = fall.x >= fall.y && fall.x >= fall.z ? 0 : fall.y >= fall.z ? 1 : 2;
+  std::vector<SkyBand> bands;
+  double low = 0.0;
+  const auto band_to = [&](double high) {
+    const glm::vec3 colour = glm::round(255.0f * shown(sky, 0.5 * (low + high))) / 255.0f;
+    bands.push_back({static_cast<float>(low), static_cast<float>(high), colour, colour});
+    low = high;
+  };
+  // Where it goes from one of its 256 values to the next; it falls from the horizon to the zenith.
+  const int first = static_cast<int>(std::lround(horizon[channel])),
+            last = static_cast<int>(std::lround(zenith[channel]));
+  for (int value = first; value > last; --value) {
+    double before = low, after = 1.0;
+    for (int i = 0; i < 24; ++i) {
+      const double middle = 0.5 * (before + after);
+      (255.0 * static_cast<double>(shown(sky, middle)[channel]) > value - 0.5 ? before : after) = middle;
+    }
+    band_to(before);
+  }
+  band_to(1.0);
+  return bands;
+}
 
 /// Two triangles for each of its sectors.
 void add_band(const SkyBand& band, const SkySectors& sectors, std::vector<SkyVertex>& vertices) {
@@ -70,11 +97,12 @@ void add_moon(const MoonDisc& moon, const glm::vec3& colour, std::vector<SkyVert
 
 }  // namespace
 
-std::vector<SkyBand> sky_bands(const Sky& sky, bool hdr) {
+std::vector<SkyBand> sky_bands(const Sky& sky, SkyKind kind) {
+  if (kind == SkyKind::kFlat) return bands_of_display(sky);
   constexpr int kBands = 28;
   const auto sine = [](int edge) { return static_cast<float>(edge * edge) / (kBands * kBands); };
   const auto colour = [&](float at) {
-    return hdr ? shader::sky_luminance(sky.zenith(), at) : shown(sky, static_cast<double>(at));
+    return kind == SkyKind::kHdr ? shader::sky_luminance(sky.zenith(), at) : shown(sky, static_cast<double>(at));
   };
   std::vector<SkyBand> bands;
   for (int i = 0; i < kBands; ++i) bands.push_back({sine(i), sine(i + 1), colour(sine(i)), colour(sine(i + 1))});
@@ -128,7 +156,9 @@ glm::vec4 Sky::zenith() const {
 }
 
 SkyPass::SkyPass(gpu::Device& device)
-    : device_(device), vertex_(gpu::make_shader(device, k_sky_vert)), fragment_(gpu::make_shader(device, k_sky_frag)) {
+    : device_(device),
+      vertex_{gpu::make_shader(device, k_sky_vert), gpu::make_shader(device, k_sky_vert_flat)},
+      fragment_{gpu::make_shader(device, k_sky_frag), gpu::make_shader(device, k_sky_frag_flat)} {
   const vk::PushConstantRange push{
       .stageFlags = vk::ShaderStageFlagBits::eVertex, .offset = 0, .size = sizeof(shader::SkyConstants)};
   layout_ = vk::raii::PipelineLayout(
@@ -152,12 +182,12 @@ void SkyPass::begin_frame() {
   vertices_->outgrown.clear();
 }
 
-SkyPass::Dome& SkyPass::dome_of(const Sky& sky, bool hdr) {
+SkyPass::Dome& SkyPass::dome_of(const Sky& sky, SkyKind kind) {
   if (views_ == domes_.size()) domes_.emplace_back();
   Dome& dome = domes_[views_++];
-  if (dome.bands.empty() || dome.sky != sky || dome.hdr != hdr) {
-    dome.sky = sky, dome.hdr = hdr;
-    dome.bands = sky_bands(sky, hdr);
+  if (dome.bands.empty() || dome.sky != sky || dome.kind != kind) {
+    dome.sky = sky, dome.kind = kind;
+    dome.bands = sky_bands(sky, kind);
   }
   return dome;
 }
@@ -168,6 +198,10 @@ void SkyPass::draw(gpu::Recorder& commands, const Sky& sky, const ViewGeometry& 
   const SkySectors sectors = sky_sectors(view);
   if (sectors.count == 0) return;
   const bool hdr = output == LampOutput::kHdr;
+  const SkyKind kind = hdr                                      ? SkyKind::kHdr
+                       : samples == vk::SampleCountFlagBits::e1 ? SkyKind::kFlat
+                                                                : SkyKind::kBlended;
+  const std::size_t variant = kind == SkyKind::kFlat ? 1 : 0;
   const auto key = std::tuple(output, format, samples);
   auto found = pipelines_.find(key);
   if (found == pipelines_.end()) {
@@ -179,8 +213,8 @@ void SkyPass::draw(gpu::Recorder& commands, const Sky& sky, const ViewGeometry& 
         vk::VertexInputAttributeDescription{
             .location = 1, .binding = 0, .format = vk::Format::eR32G32B32Sfloat, .offset = 12}};
     found = pipelines_
-                .emplace(key, make_pipeline(device_, {.vertex = *vertex_,
-                                                      .fragment = *fragment_,
+                .emplace(key, make_pipeline(device_, {.vertex = *vertex_[variant],
+                                                      .fragment = *fragment_[variant],
                                                       .constants = &constants,
                                                       .attributes = attributes,
                                                       .stride = sizeof(SkyVertex),
@@ -194,7 +228,7 @@ void SkyPass::draw(gpu::Recorder& commands, const Sky& sky, const ViewGeometry& 
   shader::SkyConstants push{};
   const glm::mat4 clip(view.clip_from_eye());
   for (int i = 0; i < 4; ++i) push.clip_from_eye[i] = clip[i];
-  const Dome& dome = dome_of(sky, hdr);
+  const Dome& dome = dome_of(sky, kind);
   std::vector<SkyVertex> vertices;
   for (const SkyBand& band : dome.bands)
     if (static_cast<double>(band.low) < sectors.highest_sine) add_band(band, sectors, vertices);

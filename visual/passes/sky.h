@@ -1,8 +1,10 @@
 // The sky behind everything: a clear colour below the horizon, bands of elevation above it, drawn first within the lit
 // pass. A view that sees no sky draws none.
 //
-// It blends from edge to edge of each band; what is shown at once is dithered (shaders/lib/tone.h), for its gradient is
-// so slow that steps of 8 bits would be seen.
+// What is shown at once has a band for each step of 8 bits, and a pixel costs no more than writing it. With several
+// samples a pixel, where the picture counts more than its time, it blends from edge to edge of even bands and is
+// dithered (shaders/lib/tone.h), for the gradient is so slow that steps show: 0.15 floors of a straight road under the
+// sky. An HDR image blends too, and is dithered when it is shown.
 #pragma once
 
 #include <array>
@@ -48,8 +50,13 @@ struct SkyBand {
   glm::vec3 colour_low{0.0f}, colour_high{0.0f};
 };
 
-/// From the horizon to the zenith, 28 bands, closer to one another at the horizon. Display: signals 0 to 1; HDR: cd/m².
-std::vector<SkyBand> sky_bands(const Sky& sky, bool hdr);
+/// Signals 0 to 1 of the display, flat or blended; cd/m².
+enum class SkyKind { kFlat, kBlended, kHdr };
+
+/// From the horizon to the zenith. Flat: a band for each of 8 bits in the channel that changes most; the others are
+/// rounded in its middle, so all are within one step. Else 28 bands, closer to one another at the horizon, where the
+/// sky changes fastest: within half a step, or 0.4 % of the formula.
+std::vector<SkyBand> sky_bands(const Sky& sky, SkyKind kind);
 
 /// What of the dome a view sees: sectors of at most 22.5°, whose straight edges rise above their circle by a fiftieth
 /// of the tangent of its elevation at most.
@@ -77,14 +84,14 @@ class SkyPass {
   /// Of a view of the frame; its bands stay while the next frame's view has the same sky.
   struct Dome {
     Sky sky;
-    bool hdr = false;
+    SkyKind kind = SkyKind::kFlat;
     std::vector<SkyBand> bands;
   };
-  Dome& dome_of(const Sky& sky, bool hdr);
+  Dome& dome_of(const Sky& sky, SkyKind kind);
 
   gpu::Device& device_;
   vk::raii::PipelineLayout layout_{nullptr};
-  vk::raii::ShaderModule vertex_, fragment_;
+  std::array<vk::raii::ShaderModule, 2> vertex_, fragment_;  ///< blended, flat
   std::map<std::tuple<LampOutput, vk::Format, vk::SampleCountFlagBits>, vk::raii::Pipeline> pipelines_;
   std::vector<Dome> domes_;
   /// Of all views of a frame, one after the other.
