@@ -18,5 +18,5 @@ void main() {
     vec3 sky = sky_luminance(frame.sky, ray.z * inversesqrt(dot(ray, ray))) * fog_air.w;
     light += output_kind == kOutputHdr ? sky : sky * frame.exposure.rgb;
   }
-  result = output_kind == kOutputHdr ? vec4(min(light, kHalfMost), 0.0) : vec4(srgb_encoded(tone_curve(light)), 1.0);
+  result = output_kind == kOutputHdr ? vec4(min(light, kHalfMost), 0.0) : vec4(srgb_encoded(tone_curve(light)) + dither(gl_FragCoord.xy), 1.0);
 }

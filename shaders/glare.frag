@@ -15,5 +15,5 @@ void main() {
     float chord2 = dot(apart, apart);
     luminance += eye_lx[i] * (veil_per_sr(terms, chord2) * max(1.0 - 0.5 * chord2, 0.0));  // on a plane across the line of sight
   }
-  result = vec4(srgb_encoded(tone_curve(luminance * exposure)), 1.0);
+  result = vec4(srgb_encoded(tone_curve(luminance * exposure)) + dither(gl_FragCoord.xy), 1.0);
 }

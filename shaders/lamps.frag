@@ -233,5 +233,10 @@ void main() {
     result = vec4(srgb_encoded(clipping_marked(tone_curve(light), gl_FragCoord.xy)), 1.0);
     return;
   }
-  result = output_kind == kOutputHdr ? min(vec4(light, total_lx), kHalfMost) : vec4(srgb_encoded(tone_curve(light)), 1.0);
+#ifdef PHARE_FOG
+  float between_steps = dither(gl_FragCoord.xy);  // what lies in fog changes slowly
+#else
+  const float between_steps = 0.0;
+#endif
+  result = output_kind == kOutputHdr ? min(vec4(light, total_lx), kHalfMost) : vec4(srgb_encoded(tone_curve(light)) + between_steps, 1.0);
 }

@@ -8,7 +8,7 @@ layout(constant_id = kSpecSkyOutput) const uint output_kind = 0;
 #ifdef PHARE_FLAT
 layout(location = 0) flat in vec3 colour;
 #else
-layout(location = 0) noperspective in vec3 colour;
+layout(location = 0) in vec3 colour;
 #endif
 layout(location = 0) out vec4 result;
 

@@ -8,7 +8,7 @@ layout(location = 1) in vec3 vertex_colour;
 #ifdef PHARE_FLAT
 layout(location = 0) flat out vec3 colour;
 #else
-layout(location = 0) noperspective out vec3 colour;  // bands are low, and no division is needed
+layout(location = 0) out vec3 colour;
 #endif
 
 // At infinity.

@@ -157,7 +157,7 @@ TEST_F(GlareOnDevice, PixelsAreTheEquation) {
       }
     // Of a step of 8 bits a device may be off by 0.6 as it rounds (Direct3D's functional specification, to UNORM;
     // Vulkan names no number); the equation's float32 is far below that.
-    EXPECT_LT(worst, 0.61f);
+    EXPECT_LT(worst, 1.11f) << "with half a step of dither";
     EXPECT_GT(lit, 320 * 180) << "the veil lies over the whole picture";
   }
 }
@@ -219,7 +219,7 @@ TEST_F(GlareOnDevice, ViewsHaveTheirOwnVeil) {
   const Image8 image = renderer->read_image();
   const auto at = [&](int x) { return static_cast<int>(image.rgba[static_cast<std::size_t>(4 * (90 * 320 + x))]); };
   EXPECT_EQ(at(80), 0);
-  EXPECT_EQ(at(240), 255);
+  EXPECT_GE(at(240), 254) << "white, and half a step of dither";
 }
 
 }  // namespace
