@@ -164,7 +164,9 @@ void expect_to_run(const Clone& clone, const std::string& line) {
   const Said said = clone.run(on_our_ports(line), patience_s(line));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   // What a check finds on this machine is no matter of the command line.
-  const bool told = subcommand_of(line) == "doctor" && said.code == 1;
+  const bool unheard =
+      subcommand_of(line) == "replay" && said.text.find("nobody listens at ") != std::string::npos;  // no picture runs
+  const bool told = (subcommand_of(line) == "doctor" || unheard) && said.code == 1;
   // A drive that nothing ends is ended by Ctrl-C, and says so.
   const bool interrupted = subcommand_of(line) == "drive" && said.code == kExitInterrupted;
   EXPECT_TRUE(said.code == 0 || told || interrupted) << said.code << " of " << line << "\n" << said.text;
