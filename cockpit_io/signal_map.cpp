@@ -68,11 +68,13 @@ Status look_up_all(const Dbc& dbc, const DbcSignal& signal, ControlMapping& mapp
     if (!status) return status;
   }
   if (!mapping.bits.empty()) return Done{};
+  std::vector<NamedValue> named_so;  // `values` points into the mapping, which stays as it is meanwhile
   for (const auto& [raw, name] : signal.value_names) {
     const double value = static_cast<double>(raw) * signal.factor + signal.offset;
     const bool said = std::ranges::any_of(values, [&](const NamedValue* other) { return other->value == value; });
-    if (!said && names_no_value(name)) mapping.invalid.push_back({value, name});
+    if (!said && names_no_value(name)) named_so.push_back({value, name});
   }
+  mapping.invalid.insert(mapping.invalid.end(), named_so.begin(), named_so.end());
   return Done{};
 }
 

@@ -19,7 +19,7 @@ namespace phare {
 namespace {
 
 constexpr double kMoon_k = 4100.0;       // sunlight that the moon has reddened; a usual figure
-constexpr std::size_t kMostNearEye = 64;  // lamps whose way to the eye is looked along
+constexpr std::size_t kMostNearEye = 32;  // more than glare_seen() keeps, for half of them may lie behind the eye
 constexpr double kOffSurface_m = 0.005;  // vertices lie on edges of their neighbours
 // A vertex of a wall may lie behind a window, of a pavement under a pole, where nobody sees it: dark, it would darken
 // what is seen a metre around. So light falls on it as if what lies on it so thinly, or it lies within so deeply, were

@@ -155,8 +155,8 @@ class FixedLight {
   glm::dvec4 reflected_at(const glm::dvec3& point_m, const glm::dvec3& normal, const SceneMaterial& material,
                           std::uint32_t ways = kReflectedWays) const;
   FixedProbe probe(const glm::dvec3& point_m) const;
-  /// Lamps that shine into an eye, the scene and the air between them; what moves hides none. The strongest
-  /// kMostGlaringLamps: no more are drawn.
+  /// Lamps that shine into an eye, the scene and the air between them; what moves hides none. The strongest at the eye,
+  /// so many that those which a view sees best are among them.
   std::vector<GlaringLamp> glare_at(const glm::dvec3& eye_m, const Air& air) const;
 
   /// Lamps that level wet ground below an eye mirrors into it: those that would be brightest in a mirror, with what

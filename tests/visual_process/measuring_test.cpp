@@ -13,6 +13,7 @@
 #include "visual/process/cameras.h"
 #include "visual/process/overlay_lines.h"
 #include "visual/process/picture_instruments.h"
+#include "visual/process/probe_plot.h"
 
 namespace phare {
 namespace {
@@ -246,6 +247,25 @@ TEST(PictureMarks, AnInsetIsKeptClearOfLinesAndLabels) {
   ASSERT_EQ(picture.labels.size(), 2u);
   EXPECT_EQ(picture.labels[0].text, "20 m");
   EXPECT_EQ(picture.labels[1].text, "30 m");
+}
+
+// The plot's box hides what lies under it: lines and labels of the road end there.
+TEST(PictureMarks, ThePlotKeepsItsBoxClear) {
+  ProbePlot plot;
+  plot.add({}, {1.0});
+  OverlayMarks alone;
+  plot.draw(alone, 1);
+  ASSERT_EQ(alone.boxes.size(), 1u);
+  const OverlayMarks::Box& box = alone.boxes.front();
+  const double middle_01 = box.top_01 + 0.5 * box.height_01;
+  OverlayMarks picture;
+  picture.lines = {{0.0, middle_01, box.left_01 + 0.5 * box.width_01, middle_01, {}}};
+  picture.labels = {{box.left_01 + 0.1, middle_01, "1 lx", {}}, {0.1, middle_01, "3 lx", {}}};
+  plot.draw(picture, 1);
+  ASSERT_EQ(picture.lines.size(), alone.lines.size() + 1);
+  EXPECT_NEAR(picture.lines.front().x1_01, box.left_01, 1e-12);
+  ASSERT_EQ(picture.labels.size(), alone.labels.size() + 1);
+  EXPECT_EQ(picture.labels.front().text, "3 lx");
 }
 
 // The numbers of a scale stand close to where the other half begins.

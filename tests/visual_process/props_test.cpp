@@ -133,6 +133,8 @@ TEST_F(PropsTest, TheWallStandsAt25MetresWithItsAngles) {
   EXPECT_NEAR(label("5 U")->y_01, 0.5 - 0.5 * std::tan(5.0 * M_PI / 180.0) / half * 16.0 / 9.0, 1e-9);
   EXPECT_NE(label("H-H"), marks.labels.end());
   EXPECT_NE(label("V-V"), marks.labels.end());
+  for (const char* at_a_corner : {"20 L", "20 R", "10 U"})
+    EXPECT_NE(label(at_a_corner), marks.labels.end()) << at_a_corner << " lies on no other";
 }
 
 TEST_F(PropsTest, NothingShinesThroughTheWall) {
