@@ -113,6 +113,7 @@ std::optional<double> decode_control(const ImportControl& control, const CanFram
 }
 
 Status one_recording(const CandumpLog& log) {
+  // Chosen: a car that is on is never so long without a frame, nor does a logger swap frames so far.
   constexpr std::int64_t kLongestSilence_ns = 10'000'000'000, kFarthestBack_ns = 1'000'000'000;
   for (std::size_t i = 1; i < log.entries.size(); ++i) {
     const CandumpEntry &before = log.entries[i - 1], &after = log.entries[i];
