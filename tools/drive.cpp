@@ -185,6 +185,7 @@ class DriveRun {
   void show_progress(DriveProgress& progress, const Newest<FrameReport>& report);
   void remember_restarts();
   std::string validation_messages() const;
+  std::string what_was_not_written() const;
   void judge();
   void write_report();
 
@@ -343,6 +344,16 @@ std::string DriveRun::validation_messages() const {
   return found;
 }
 
+/// Pictures of those who had no time to make them.
+std::string DriveRun::what_was_not_written() const {
+  std::string names;
+  for (const Supervisor::Ended& end : supervisor_->ends()) {
+    if (kept() && facts_.interrupted && end.process.starts_with("visual") && end.how != "exit 0")
+      names += (names.empty() ? "" : ", ") + end.process;
+  }
+  return names.empty() ? "" : "no time was left for " + names + " to write all stills and rows";
+}
+
 /// How the drive ended, and whether all that was asked for is kept.
 void DriveRun::judge() {
   facts_.exit_code = supervisor_->exit_code();
@@ -355,7 +366,8 @@ void DriveRun::judge() {
   if (facts_.exit_code == kExitBadInput) return;
   // Who was hurried to his end did not choose it.
   const std::string badly = facts_.exit_code == kExitDone ? supervisor_->ended_badly() : "";
-  for (const std::string& reason : {audits_.first, validation_messages(), badly, what_is_missing(not_kept_, recorded_)})
+  for (const std::string& reason :
+       {audits_.first, validation_messages(), badly, what_is_missing(not_kept_, recorded_), what_was_not_written()})
     if (!reason.empty()) facts_.why += (facts_.why.empty() ? "" : "; ") + reason;
   if (!facts_.why.empty() && facts_.exit_code == kExitDone) facts_.exit_code = kExitCheckFailed;
 }

@@ -225,8 +225,11 @@ TEST_F(Folder, ADriveThatIsHungUpOnKeepsWhatThereIsAndSaysWhatIsMissing) {
   ASSERT_TRUE(report.is_object());
   EXPECT_EQ(report["cut_short"], true);
   EXPECT_NE(report["why"].get<std::string>().find("pictures could not be kept"), std::string::npos) << report["why"];
+  // Ctrl-C and its like have two seconds; on a machine with much to do that is not enough for three pictures.
+  const bool told = report["why"].get<std::string>().find("no time was left for visual-0") != std::string::npos;
+  EXPECT_EQ(told, report["ends"]["visual-0"] != "exit 0") << report["why"];
   for (const char* still : {"drivers_view.png", "wall_25m.png", "birds_eye.png"})
-    EXPECT_TRUE(fs::exists(out / still)) << still;
+    EXPECT_TRUE(told || fs::exists(out / still)) << still;
 }
 
 TEST_F(Folder, ADriveThatIsCutShortSaysSoAndEndsWith130) {
@@ -261,6 +264,21 @@ TEST_F(Folder, ADriveThatIsCutShortSaysSoAndEndsWith130) {
     EXPECT_EQ(report["exit_code"], 130);
     EXPECT_NE(contents_of(out / "index.html").find("cut short"), std::string::npos);
   }
+}
+
+// One whose pictures would take longer than Ctrl-C may is ended, and it is said that they are missing.
+TEST_F(Folder, PicturesThatCtrlCLeavesNoTimeForAreToldOf) {
+  const fs::path out = folder_ / "out";
+  DriveRun run(out, folder_.path(), {"--still-at", "60"});
+  ASSERT_TRUE(run.wait_for_frame(0));
+  const pid_t visual = run.processes().at("phare-visual");
+  const std::jthread held([visual](const std::stop_token& over) {
+    for (; !over.stop_requested(); std::this_thread::sleep_for(std::chrono::milliseconds(1))) kill(visual, SIGSTOP);
+  });
+  EXPECT_EQ(run.end(SIGINT), 130);
+  const auto report = report_of(out);
+  ASSERT_TRUE(report.is_object());
+  EXPECT_NE(report["why"].get<std::string>().find("no time was left for visual-0"), std::string::npos) << report["why"];
 }
 
 // One that hangs is told, ended and started again; the picture waits with low beam, not with what was.
