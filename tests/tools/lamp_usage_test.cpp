@@ -26,6 +26,26 @@ TEST_F(LampUsage, EveryCommandHasJson) {
   EXPECT_TRUE(test::content_of(in("t.csv")).starts_with("h_deg,v_deg,intensity_cd\n"));
 }
 
+// H and V are azimuth and elevation whatever the file's own angles: type A has them, of type C they are turned.
+TEST_F(LampUsage, IntensityAtHAndV) {
+  const std::string of_c = in("c.ldt");
+  ASSERT_EQ(lamp("convert " + ours("low_rht.ies") + " --out " + of_c).code, 0);
+  const auto at = [&](const std::string& what) { return lamp("table " + ours("low_rht.ies") + what).out; };
+  EXPECT_EQ(at(" --hv -3.5,0.5 1,-1"), at(" --at " + file("two.csv", "h_deg,v_deg\n-3.5,0.5\n1,-1\n")));
+  const auto cd = [&](const std::string& lamp_file, const char* hv) {
+    const auto said = nlohmann::json::parse(lamp("table " + lamp_file + " --json --hv " + hv).out);
+    EXPECT_EQ(said["rows"].size(), 1u);
+    EXPECT_NEAR(said["rows"][0]["v_deg"].get<double>(), -1.0, 1e-12);
+    return said["rows"][0]["intensity_cd"].get<double>();
+  };
+  for (const char* hv : {"0,-1", "-4,-1", "5,-1"}) {
+    const double a = cd(ours("low_rht.ies"), hv), c = cd(of_c, hv);
+    EXPECT_NEAR(c, a, 0.1 * a) << hv;  // planes of the converted file lie between the nodes
+  }
+  for (const char* bad : {"--hv 1", "--hv 1,b", "--hv 1,2,3", "--hv 0,91", "--hv nan,0", "", "--hv 0,0 --at two.csv"})
+    EXPECT_EQ(lamp("table " + ours("low_rht.ies") + " " + bad).code, 2) << bad;
+}
+
 TEST_F(LampUsage, AnyFileNameIsJson) {
   const std::string odd =
       in("b\xE9"

@@ -1,11 +1,13 @@
 // phare lamp info, phare lamp table: what a photometry file is, and what it says in a direction.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "config/base/input_files.h"
+#include "config/finite_numbers.h"
 #include "tools/commands.h"
 #include "tools/lamp/lamp_commands.h"
 #include "tools/lamp/point_lists.h"
@@ -218,10 +220,39 @@ int lamp_info(const LampInfoOptions& options) {
   return bad ? kExitBadInput : options.strict && wrong ? kExitCheckFailed : kExitDone;
 }
 
+namespace {
+
+/// Of "H,V", degrees.
+Result<TableAngles> hv_of(const std::string& word) {
+  const auto comma = word.find(',');
+  const auto h = finite_number(word.substr(0, comma));
+  const auto v = comma == std::string::npos ? std::nullopt : finite_number(word.substr(comma + 1));
+  if (!h || !v) return Error{"--hv " + word, "expected H,V, two numbers of degrees, as -3.43,0.57"};
+  if (std::abs(*h) > 180.0 || std::abs(*v) > 90.0)
+    return Error{"--hv " + word, "H lies within -180 and 180 degrees, V within -90 and 90"};
+  return TableAngles{*h, *v};
+}
+
+/// The directions asked for in the table's own angles, each row's text as it was given.
+Result<AnglesFile> angles_asked_for(const LampTableOptions& options, const IntensityTable& table) {
+  if (options.hv.empty() && options.at.empty()) return Error{"", "--at or --hv is required (see --help)"};
+  if (options.hv.empty()) return read_angles(options.at);
+  AnglesFile angles{.header = "h_deg,v_deg", .rows = {}};
+  for (const std::string& word : options.hv) {
+    const auto hv = hv_of(word);
+    if (!hv) return hv.error();
+    const bool screen = table.screen_distance_m > 0.0;  // its rows are H and V already
+    angles.rows.push_back({screen ? *hv : table.angles_of(direction_hv(hv->first_deg, hv->second_deg)), word});
+  }
+  return angles;
+}
+
+}  // namespace
+
 int lamp_table(const LampTableOptions& options) {
   const auto table = read_lamp(options.file, options.settings);
   if (!table) return bad_input(table.error());
-  const auto angles = read_angles(options.at);
+  const auto angles = angles_asked_for(options, *table);
   if (!angles) return bad_input(angles.error());
   if (!options.out.empty() || !options.json) {
     const Status written = write_intensity(options.out.empty() ? "-" : options.out, *angles, *table);
@@ -232,8 +263,9 @@ int lamp_table(const LampTableOptions& options) {
         {"file", options.file}, {"photometric_type", type_name(*table)}, {"rows", nlohmann::json::array()}};
     if (!options.out.empty()) json["out"] = options.out;
     for (const AngleRow& row : angles->rows) {
-      json["rows"].push_back({{"h_deg", row.angles.first_deg},
-                              {"v_deg", row.angles.second_deg},
+      const TableAngles told = options.hv.empty() ? row.angles : *hv_of(row.text);
+      json["rows"].push_back({{"h_deg", told.first_deg},
+                              {"v_deg", told.second_deg},
                               {"intensity_cd", intensity_of_row_cd(*table, row.angles)}});
     }
     print_json(json);

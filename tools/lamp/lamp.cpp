@@ -86,10 +86,18 @@ void add_info(CLI::App* lamp, Command& chosen) {
 
 void add_table(CLI::App* lamp, Command& chosen) {
   auto options = std::make_shared<LampTableOptions>();
-  CLI::App* command = lamp->add_subcommand("table", "Intensity at pairs of the table's own angles");
-  command->footer("Example:\n  phare lamp table low_beam.ies --at angles.csv --out intensity.csv");
+  CLI::App* command =
+      lamp->add_subcommand("table", "Intensity in directions: at pairs of the table's own angles, or at H,V");
+  command->footer(
+      "Example:\n  phare lamp table low_beam.ies --at angles.csv --out intensity.csv\n"
+      "  phare lamp table low_beam.ies --hv 0,0 -3.43,0.57");
   command->add_option("file", options->file, "Photometry file")->required();
-  command->add_option("--at", options->at, "CSV with h_deg,v_deg")->required();
+  CLI::Option* at = command->add_option("--at", options->at,
+                                        "CSV with h_deg,v_deg, the table's own two angles (type C: C and gamma)");
+  command
+      ->add_option("--hv", options->hv,
+                   "H,V in degrees, right and up from the optical axis, whatever the file's own angles; any number")
+      ->excludes(at);
   command->add_option("--out", options->out, "CSV to write; adds intensity_cd [standard output]");
   command->add_flag("--json", options->json, "For machines; --out names the CSV to write as well");
   add_reading(command, options->settings);

@@ -20,6 +20,7 @@ int lamp_info(const LampInfoOptions& options);
 
 struct LampTableOptions {
   std::string file, at, out;
+  std::vector<std::string> hv;  ///< "H,V" in degrees, right and up, by azimuth and elevation; in place of `at`
   LampReadSettings settings;
   bool json = false;
 };
