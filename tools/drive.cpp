@@ -114,7 +114,7 @@ void print_summary(const nlohmann::json& report, const std::string& out, bool pa
     if (before > 0)
       std::printf("%llu frames; since the picture was started again ",
                   static_cast<unsigned long long>(before + summary["frames"].get<std::uint64_t>()));
-    std::printf("%s frames in %.1f s: %.3g a second; a frame %.2f ms median, %.2f ms p99\n",
+    std::printf("%s frames, %.1f s after the first: %.3g a second; a frame %.2f ms median, %.2f ms p99\n",
                 summary["frames"].dump().c_str(), summary.value("drawn_s", 0.0), summary.value("frames_per_s", 0.0),
                 t.value("median", 0.0), t.value("p99", 0.0));
   }

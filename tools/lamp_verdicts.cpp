@@ -1,5 +1,7 @@
 #include "tools/lamp_verdicts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -58,7 +60,8 @@ Beam beam_of(const DesignConfig& design, LampFunction function) {
   for (const LampConfig* lamp : lamps) {
     for (const SourceConfig& source : lamp->sources) {
       if (source.function != function) continue;
-      const std::string file = source.file.filename().string();
+      std::string file = source.file.filename().string();
+      if (source.scale != 1.0) file += fmt::format(" \u00d7 {:g}", source.scale);
       if (beam.files.find(file) == std::string::npos) beam.files += (beam.files.empty() ? "" : ", ") + file;
       if (!beam.none.empty()) continue;
       if (const Status status = read.add(source); !status) {
@@ -106,7 +109,10 @@ void add_hspr(json& row, const Beam& beam, LampFunction function) {
   }
   const HsprResult result = function == LampFunction::kLow ? hspr_low_beam(lamps) : hspr_high_beam(lamps);
   if (result.score)
-    row["hspr"] = {{"score", *result.score}, {"class", hspr_class(10.0 * *result.score)}};
+    row["hspr"] = {{"score", *result.score},
+                   {"class", hspr_class(10.0 * *result.score)},
+                   {"height_m", 0.5 * (beam.z_m[0] + beam.z_m[1])},
+                   {"spacing_m", beam.y_m[0] - beam.y_m[1]}};
   else
     row["hspr_none"] = "a threshold of the method is never reached";
 }

@@ -317,7 +317,8 @@ class Page {
             page_ << "<td></td><td></td>";
           else if (row.contains("hspr"))
             page_ << "<td>" << value_text(row["hspr"], "score") << "</td><td class=\"text\">"
-                  << value_text(row["hspr"], "class") << "</td>";
+                  << value_text(row["hspr"], "class") << ", lamps " << value_text(row["hspr"], "height_m")
+                  << " m high, " << value_text(row["hspr"], "spacing_m") << " m apart</td>";
           else
             page_ << "<td>–</td><td class=\"text\">" << (row.contains("hspr_none") ? value_text(row, "hspr_none") : "")
                   << "</td>";
@@ -325,9 +326,10 @@ class Page {
         page_ << "<td class=\"text\">" << (i == 0 ? value_text(row, "files") : "") << "</td></tr>";
       }
     }
-    page_ << "</table></div><p>Of the photometry files, each aimed as the rule says; phare lamp check and phare lamp "
-             "hspr "
-             "tell every row.</p>";
+    page_ << "</table></div><p>Of the photometry files times the rig's scale, each aimed as the rule says; HSPR of the "
+             "lamps where the rig has them. phare lamp check and phare lamp hspr, with these --height and --spacing, "
+             "tell "
+             "every row.</p>";
   }
 
   void verdict(const json& rule) {

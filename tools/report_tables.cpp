@@ -37,7 +37,8 @@ class Tables {
       page_ << " since the picture was started again, " << value_text(summary_, "frames_before") << " before";
     if (summary_.contains("device")) page_ << " on " << value_text(summary_, "device");
     if (summary_.contains("frames_per_s")) {
-      page_ << ", " << value_text(summary_, "frames_per_s", "%.3g") << " frames a second: all frames by all seconds";
+      page_ << ", " << value_text(summary_, "frames_per_s", "%.3g")
+            << " frames a second: all frames after the first by all seconds since";
       if (summary_.contains("frames_per_s_median"))
         page_ << "; " << value_text(summary_, "frames_per_s_median", "%.3g") << " by the median interval";
     }

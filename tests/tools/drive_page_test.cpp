@@ -252,6 +252,9 @@ TEST(LampVerdicts, AreThoseOfCheckAndHspr) {
     for (const json& rule : row["rules"]) passed |= rule["verdict"] == "pass" || rule["verdict"] == "within resolution";
     EXPECT_TRUE(passed) << row.dump();
     EXPECT_TRUE(row["beam"] != "low" || row.contains("hspr")) << row.dump();
+    if (!row.contains("hspr")) continue;
+    EXPECT_NEAR(row["hspr"]["height_m"].get<double>(), 0.66, 0.1) << "the rig's, not the method's 0.75: " << row.dump();
+    EXPECT_NEAR(row["hspr"]["spacing_m"].get<double>(), 1.24, 1e-9) << row.dump();
   }
   EXPECT_EQ(designs.size(), rig->designs.size());
 
@@ -260,6 +263,7 @@ TEST(LampVerdicts, AreThoseOfCheckAndHspr) {
   weak.designs.resize(1);
   for (LampConfig& lamp : weak.designs[0].lamps)
     for (SourceConfig& source : lamp.sources) source.scale *= 0.3;
+  EXPECT_NE(lamp_verdicts(weak, rules_dir())[0]["files"].get<std::string>().find("× 0.3"), std::string::npos);
   const json low = lamp_verdicts(weak, rules_dir())[0];
   EXPECT_EQ(low["rules"][0]["verdict"], "fail");
   EXPECT_LT(low["rules"][0]["worst"]["value"], low["rules"][0]["worst"]["limit"]);

@@ -57,8 +57,9 @@ TEST(Report, MergesWhatThereIs) {
   EXPECT_NE(page.find("&lt;lavapipe&gt;"), std::string::npos);
   EXPECT_NE(page.find("birds_eye.png"), std::string::npos);
   EXPECT_NE(page.find("<td>traffic</td><td class=\"text\">others.toml"), std::string::npos);
-  EXPECT_NE(page.find("62.5 frames a second: all frames by all seconds; 100 by the median interval"),
-            std::string::npos);
+  EXPECT_NE(
+      page.find("62.5 frames a second: all frames after the first by all seconds since; 100 by the median interval"),
+      std::string::npos);
   EXPECT_NE(page.find("3 pictures with the low beam of the fail-safe, 1 times"), std::string::npos);
   EXPECT_NE(page.find("1.500 to 1.750 s: no cockpit for 0.3 s: low beam"), std::string::npos);
   EXPECT_NE(page.find("2 pictures with a pose that was held"), std::string::npos);

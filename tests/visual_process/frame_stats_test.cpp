@@ -60,6 +60,7 @@ TEST(FrameStats, PassesOfKeptFramesAreTimed) {
   for (int i = 0; i < 5; ++i) stats.add(kept, true);
   EXPECT_EQ(stats.pass_ms.at("lamps").count(), 5u);
   EXPECT_EQ(stats.pass_ms.at("lamps").max(), 3.0);
+  EXPECT_EQ(to_json(stats.gpu_ms), (nlohmann::json{{"count", 0}})) << "nothing is no 0.000 ms";
   EXPECT_EQ(stats.gpu_ms.count(), 0u) << "from the first stamp to the last, reading back with it";
   EXPECT_EQ(stats.effect_ms.size(), 1u);
   EXPECT_EQ(stats.effect_ms.at(Effect::kShadows).count(), 5u);

@@ -66,8 +66,9 @@ class LogHistogram {
   double highest_ = -std::numeric_limits<double>::infinity();
 };
 
-/// {"count", "min", "median", "mean", "p95", "p99", "max"}
+/// {"count", "min", "median", "mean", "p95", "p99", "max"}; of nothing the count alone.
 inline nlohmann::json to_json(const LogHistogram& histogram) {
+  if (histogram.count() == 0) return {{"count", 0}};
   return {{"count", histogram.count()},
           {"min", histogram.min()},
           {"median", histogram.percentile(0.50)},
