@@ -39,7 +39,7 @@ Status Supervisor::begin(Watched& process, const std::vector<std::string>& argum
   auto child = ChildProcess::start(process.spec.program, arguments);
   if (!child) return child.error();
   process.child = *child;
-  process.begun = Clock::now();
+  process.begun = Clock::now(), process.first_sign.reset();
   process.last_end = "running";
   process.ended_because.clear();
   spdlog::debug("started {} (pid {})", process.spec.name, child->pid());
@@ -97,6 +97,7 @@ bool Supervisor::look_after(Watched& process) {
     return restart(process, "exit 0, while the pictures go on");
   }
   if (!process.child) return true;
+  if (!process.first_sign && process.alive && process.alive->newest() > process.begun) process.first_sign = now;
   const auto end = process.child->ended();
   if (!end) {
     end_if_hung(process);
@@ -118,6 +119,12 @@ bool Supervisor::look_after(Watched& process) {
   return restart(process, process.ended_because.empty() ? end->text() : process.ended_because);
 }
 
+/// What took long to begin and ended at its first frame would begin again for ever.
+Supervisor::Clock::duration Supervisor::lived(const Watched& process) {
+  const auto now = Clock::now();
+  return process.alive ? now - process.first_sign.value_or(now) : now - process.begun;
+}
+
 /// One that draws has looked at the bus since: told to end, it would not.
 bool Supervisor::pictures_go_on_since(Clock::time_point then) const {
   return std::ranges::any_of(processes_, [&](const Watched& process) {
@@ -127,7 +134,7 @@ bool Supervisor::pictures_go_on_since(Clock::time_point then) const {
 
 bool Supervisor::restart(Watched& process, const std::string& because) {
   const auto now = Clock::now();
-  if (now - process.begun >= short_life_) process.short_lives = 0;
+  if (lived(process) >= short_life_) process.short_lives = 0;
   if (process.short_lives >= kMaxRestarts) {
     return give_up(kExitCheckFailed,
                    process.spec.name + " ended with " + because + " after " + std::to_string(kMaxRestarts) +

@@ -36,7 +36,8 @@ class Supervisor {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Of one process, one after the other, none of which lived as long as this; one more and we give up.
+  /// Of one process, one after the other, none of which lived as long as this from its first sign of life on (of one
+  /// that is not watched: from its start); one more and we give up.
   static constexpr std::size_t kMaxRestarts = 5;
   static constexpr std::chrono::seconds kShortLife{10};
   static constexpr std::chrono::milliseconds kFirstBackoff{50};  ///< doubled by every one of those
@@ -89,6 +90,7 @@ class Supervisor {
     std::optional<Clock::time_point> due;   ///< next start
     Clock::time_point begun{};
     std::size_t short_lives = 0;  ///< restarts since it last lived long
+    std::optional<Clock::time_point> first_sign{};  ///< of life, of the child that runs
     std::optional<AliveFile> alive;
     std::optional<Watchdog> watchdog;  ///< of the child that runs
     std::optional<Clock::time_point> looked{};  ///< for signs of life
@@ -97,6 +99,7 @@ class Supervisor {
   Status begin(Watched& process, const std::vector<std::string>& arguments);
   void end_if_hung(Watched& process);
   bool look_after(Watched& process);
+  static Clock::duration lived(const Watched& process);
   bool pictures_go_on_since(Clock::time_point then) const;
   bool restart(Watched& process, const std::string& because);
   bool give_up(int exit_code, std::string why);

@@ -160,6 +160,14 @@ TEST_F(DriveTest, ARigsOwnSourceDrivesIt) {
 
 // Beam images are summed when a light changes, at most one for each of two headlamps and two fog lamps, and in no other
 // frame.
+// What dazzles from behind the wall is hidden by it, while the driver is dazzled.
+TEST_F(DriveTest, TheWallIsShownWhileOthersComeToward) {
+  DriveRun run(folder_ / "wall", folder_.path(),
+               {"--frames", "2", "--camera", "wall", "--traffic", source_dir() + "/config/examples/column.toml"});
+  EXPECT_EQ(run.wait(), 0);
+  EXPECT_TRUE(report_of(folder_ / "wall")["restarts"].empty());
+}
+
 TEST_F(DriveTest, BeamsAreSummedOnlyWhenALightChanges) {
   const json& visual = quiet_.report["processes"]["visual-0"];
   const int changes = visual["switch_to_photon"]["changes"];

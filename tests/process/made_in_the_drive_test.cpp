@@ -69,6 +69,22 @@ TEST_F(MadeInTheDrive, IsNoPipelineWhateverThePictureBeginsWith) {
   }
 }
 
+// Two headlamps that are aimed alike have shaders of their own: one of them turned takes others.
+TEST_F(MadeInTheDrive, IsNoPipelineWhenALampIsTurned) {
+  const fs::path out = folder_ / "turned";
+  DriveRun run(out, folder_ / "home", {"--frames", "100000"}, /*lockstep=*/false);
+  ASSERT_TRUE(run.wait_for_frame(2));
+  for (const char* yaw_deg : {"1", "0"}) {
+    ASSERT_EQ(control({"move", "headlamp right", "yaw", yaw_deg}), 0);
+    ASSERT_TRUE(run.wait_for_frame(newest_picture(out) + 60));
+  }
+  ASSERT_EQ(control({"quit"}), 0);
+  ASSERT_EQ(run.wait(), 0);
+  const json made = report_of(out)["processes"]["visual-0"]["made_in_the_drive"];
+  EXPECT_EQ(made["pipelines"], 0) << made;
+  EXPECT_GT(made["beside_the_frames"], 0) << made;
+}
+
 // A picture of a kind that nobody has thought of before the drive is made beside its frames: none is late for it, nor
 // for the lights that are switched in it later, the front fog lamps from 51 to 57 s, high beam from 57 s on.
 TEST_F(MadeInTheDrive, IsAnotherKindOfPictureBesideTheFrames) {

@@ -90,6 +90,16 @@ TEST(Supervisor, GivesUpOnWhatDiesSlowlyToo) {
   EXPECT_GT(well.restarts().size(), Supervisor::kMaxRestarts);
 }
 
+// Long to begin and soon at its end: no life is long enough to be tried for ever.
+TEST(Supervisor, GivesUpOnWhatEndsAtItsFirstSignOfLife) {
+  const auto file = std::filesystem::path(testing::TempDir()) / ("phare_first_sign" + std::to_string(getpid()));
+  Supervisor supervisor({{"visual-0", "/bin/sh", {"-c", "sleep 0.4; exit 1"}, true, {}, file, HungAfter{}}}, 200ms);
+  ASSERT_TRUE(supervisor.start());
+  EXPECT_TRUE(over_within(supervisor, 20s)) << "without a sign";
+  EXPECT_EQ(supervisor.restarts().size(), Supervisor::kMaxRestarts);
+  std::filesystem::remove(file);
+}
+
 // The pictures would wait for it for ever. Where they end as well, as all do that are told to, it stays away.
 TEST(Supervisor, RestartsOneThatLeavesWhileThePicturesGoOn) {
   const auto file = [](const char* name) {

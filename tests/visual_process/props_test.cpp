@@ -146,7 +146,7 @@ TEST_F(PropsTest, NothingShinesThroughTheWall) {
     };
     view.glare = {at({60, 1, 0.2}), at({20, 1, 0.2}), at({60, 90, 0.2}), at({-30, 1, 0.2})};
     const std::vector<GlaringLamp> all = view.glare;
-    props_.add_to(view, kind, lamps_, car_, true, world);
+    EXPECT_TRUE(props_.add_to(view, kind, lamps_, car_, true, world).empty()) << "nothing of it is the own car's";
     const auto shines = [&](std::size_t i) {
       return std::ranges::count(view.glare, all[i].place_m, &GlaringLamp::place_m) > 0;
     };

@@ -207,6 +207,7 @@ class Loop {
     std::set<LampFunction> functions{};
     std::size_t others = 0;  ///< lamps of others
     bool glare = false;
+    bool apart = false;  ///< one's own are not all aimed alike
 
     friend auto operator<=>(const LitWith&, const LitWith&) = default;
   };
@@ -239,6 +240,7 @@ class Loop {
   LitWith lit_with_;    ///< in the newest frame
   CockpitState light_;  ///< the same, of one's own lamps: the controls that it shows
   std::vector<GlaringLamp> glare_before_;
+  std::vector<glm::dmat3> car_from_image_;  ///< of one's own lamps, as the newest frame had them
   /// What the picture waits for.
   struct Awaited {
     std::pair<Kind, LitWith> what;

@@ -1,6 +1,7 @@
 // Which lamps a picture is lit by, and which glare in it: all that shine, as far as the device has what it takes. What
 // shines for the first time in a kind of picture, and was not made ready before the drive, is left out until it is made
-// beside the frames, a second or two; no frame is late for it. Not in lockstep, where a slow frame harms nobody.
+// beside the frames, a second or two; no frame is late for it. So it is with lamps that are aimed apart for the first
+// time, which till then stay as they were. Not in lockstep, where a slow frame harms nobody.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -8,14 +9,25 @@
 #include <utility>
 #include <vector>
 
+#include "config/base/conventions.h"
 #include "visual/process/loop.h"
 #include "visual/process/overlay_lines.h"
 #include "visual/process/picture_kind.h"
 
 namespace phare {
 
+namespace {
+
+/// Pictures of two lamps aimed alike have shaders of their own (LitBy::alike).
+bool aimed_apart(const std::vector<PlacedLamp>& lamps, std::size_t own) {
+  return std::any_of(lamps.begin(), lamps.begin() + static_cast<std::ptrdiff_t>(own),
+                     [&](const PlacedLamp& lamp) { return lamp.world_from_image != lamps.front().world_from_image; });
+}
+
+}  // namespace
+
 Loop::LitWith Loop::lit_with(const CockpitState& light, std::size_t others, bool glare) const {
-  return {light.design_index, lit_functions(light, s_.rig.high_keeps_low), others, glare};
+  return {light.design_index, lit_functions(light, s_.rig.high_keeps_low), others, glare, lit_with_.apart};
 }
 
 /// It was drawn, or rehearsed, without shadows and with them.
@@ -114,7 +126,8 @@ std::optional<Loop::LitWith> Loop::nearest_ready(const LitWith& lit, std::size_t
 }
 
 /// The frame without the lamps of others or the glare that it lacks pipelines for; none: it lacks nothing. Where it
-/// lacks them for lamps that glare no more, it glares as before. What is measured and logged is as it shines.
+/// lacks them for lamps that glare no more, it glares as before, and for own ones that are aimed apart, they are aimed
+/// as before. What is measured and logged is as it shines.
 std::optional<FrameInput> Loop::without_new_lamps(const FrameMoment& moment) {
   const auto of_others = Traffic::is_theirs;
   LitWith lit = lit_with_;
@@ -122,9 +135,15 @@ std::optional<FrameInput> Loop::without_new_lamps(const FrameMoment& moment) {
   const std::size_t own = input_.lamps.size() - lit.others;
   lit.glare = !input_.glare.empty();
   for (const ViewInput& view : input_.more_views) lit.glare = lit.glare || !view.glare.empty();
+  lit.apart = aimed_apart(input_.lamps, own);
+  const VehicleState& car = moment.car.pose;
+  const glm::dmat3 body = world_from_car(car.roll_rad, car.pitch_rad, car.yaw_rad);
   if (may_show(lit, {.glare = lit.glare}, own, moment)) {
     lit_with_ = lit;
     if (lit.glare) glare_before_ = input_.glare;
+    car_from_image_.clear();
+    for (std::size_t i = 0; i < own; ++i)
+      car_from_image_.push_back(glm::transpose(body) * input_.lamps[i].world_from_image);
     return std::nullopt;
   }
   FrameInput frame = input_;
@@ -133,6 +152,8 @@ std::optional<FrameInput> Loop::without_new_lamps(const FrameMoment& moment) {
     std::size_t others = 0;
     std::erase_if(view.lamps, [&](const PlacedLamp& lamp) { return of_others(lamp) && ++others > otherwise.others; });
     if (!otherwise.glare) view.glare.clear();
+    const bool as_before = otherwise.apart != lit.apart && own == car_from_image_.size() && view.lamps.size() >= own;
+    for (std::size_t i = 0; as_before && i < own; ++i) view.lamps[i].world_from_image = body * car_from_image_[i];
   };
   limit(frame);
   for (ViewInput& view : frame.more_views) limit(view);

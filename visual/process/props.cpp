@@ -111,8 +111,8 @@ bool Props::shows_own_car(CameraKind kind, const Camera& camera, const VehicleSt
   return !(glm::all(glm::greaterThan(at_m, kCarLow_m)) && glm::all(glm::lessThan(at_m, kCarHigh_m)));
 }
 
-void Props::add_to(ViewInput& view, CameraKind kind, const Lamps& lamps, const VehicleState& car, bool lit,
-                   const World& world) const {
+std::vector<GlaringLamp> Props::add_to(ViewInput& view, CameraKind kind, const Lamps& lamps, const VehicleState& car,
+                                       bool lit, const World& world) const {
   if (kind == CameraKind::kWall) {
     const Wall wall = wall_before(lamps, car);
     glm::dvec3 foot_m = wall.lamps_m + kWall_m * wall.world_from_wall[0];
@@ -124,15 +124,16 @@ void Props::add_to(ViewInput& view, CameraKind kind, const Lamps& lamps, const V
     std::erase_if(view.glare,
                   [&](const GlaringLamp& lamp) { return occluder(alone, lamp.place_m, view.camera.eye_m); });
   }
-  if (!shows_own_car(kind, view.camera, car)) return;
+  if (!shows_own_car(kind, view.camera, car)) return {};
   const PlacedMesh body = own_car(car_, car);
   for (PlacedLamp& lamp : view.lamps)
     if (!Traffic::is_theirs(lamp)) lamp.carried_by = view.moving.size();
   view.moving.push_back(body);
-  if (!lit || view.camera.orthographic_width_m > 0.0) return;
-  const auto tail = rear_lamps_into(RoadUserClass::car, {}, body.position_m, body.world_from_mesh, view.camera.eye_m,
-                                    world, view.air);
+  if (!lit || view.camera.orthographic_width_m > 0.0) return {};
+  auto tail = rear_lamps_into(RoadUserClass::car, {}, body.position_m, body.world_from_mesh, view.camera.eye_m, world,
+                              view.air);
   view.glare.insert(view.glare.end(), tail.begin(), tail.end());
+  return tail;
 }
 
 std::vector<PlacedMesh> Props::one_of_each(const glm::dvec3& place_m) const {

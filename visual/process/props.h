@@ -43,10 +43,11 @@ class Props {
   /// within the car.
   static bool shows_own_car(CameraKind kind, const Camera& camera, const VehicleState& car);
   /// Puts into a view what its camera shows. The car's body carries its own lamps and casts no shadow in their light;
-  /// its tail lamps shine (`lit`) into the eye that sees it, where nothing of `world` is between. What shines into the
-  /// eye, which the view has already, shines through no wall. `world` has the meshes of what moves.
-  void add_to(ViewInput& view, CameraKind kind, const Lamps& lamps, const VehicleState& car, bool lit,
-              const World& world) const;
+  /// its tail lamps, which are returned, shine (`lit`) into the eye that sees it, where nothing of `world` is between.
+  /// What shines into the eye, which the view has already, shines through no wall. `world` has the meshes of what
+  /// moves.
+  std::vector<GlaringLamp> add_to(ViewInput& view, CameraKind kind, const Lamps& lamps, const VehicleState& car,
+                                  bool lit, const World& world) const;
   /// Both, for a warm-up.
   std::vector<PlacedMesh> one_of_each(const glm::dvec3& place_m) const;
 

@@ -228,11 +228,10 @@ std::vector<GlaringLamp> Loop::add_views(const FrameMoment& moment, const Lamps&
   input_.glare = glare_in(input_, pose, shining);
   for (ViewInput& view : input_.more_views) view.glare = glare_in(view, pose, shining);
   const bool lit = moment.controls.light_switch != LightSwitch::kOff;
-  const auto of_others = static_cast<std::ptrdiff_t>(input_.glare.size());
-  s_.props.add_to(input_, s_.desk.camera, shining, pose, lit, world_);
+  std::vector<GlaringLamp> tail_lamps = s_.props.add_to(input_, s_.desk.camera, shining, pose, lit, world_);
   if (two) s_.props.add_to(input_.more_views.back(), second.kind, shining, pose, lit, world_);
   input_.room = room_beside(s_.desk);
-  return {input_.glare.begin() + of_others, input_.glare.end()};
+  return tail_lamps;
 }
 
 CameraEye Loop::place_eye(const FrameMoment& moment) {
