@@ -86,6 +86,7 @@ Verbs CockpitProcess::verbs() {
   Verbs verbs;
   verbs.on<RigControl::Quit>([this](const auto&) {
     stop_.request();
+    bus_.leaves_as_told();
     return accepted("leaves");
   });
   verbs.on<RigControl::Pause>([this](const RigControl::Pause& pause) {

@@ -50,4 +50,11 @@ bool AliveFile::is_let_go() const {
   return words_->go.load(std::memory_order_relaxed) != 0;
 }
 
+void AliveFile::leaves_as_told() {
+  words_->told_to_leave.store(1, std::memory_order_relaxed);
+}
+bool AliveFile::left_as_told() const {
+  return words_->told_to_leave.load(std::memory_order_relaxed) != 0;
+}
+
 }  // namespace phare

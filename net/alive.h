@@ -31,10 +31,13 @@ class AliveFile {
 
   void let_go();
   bool is_let_go() const;
+  /// That it ends because RigControl::Quit told it to.
+  void leaves_as_told();
+  bool left_as_told() const;
 
  private:
   struct Words {
-    std::atomic<std::int64_t> beat_ns, go;
+    std::atomic<std::int64_t> beat_ns, go, told_to_leave;
   };
   explicit AliveFile(Words* words) : words_(words) {}
   Words* words_ = nullptr;

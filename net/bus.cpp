@@ -308,6 +308,10 @@ Status Bus::ready_with_the_others(const std::filesystem::path& alive_file, const
   return Done{};
 }
 
+void Bus::leaves_as_told() {
+  if (alive_) alive_->leaves_as_told();
+}
+
 bool Bus::wait(std::chrono::nanoseconds at_most) {
   return socket_.wait(at_most);
 }

@@ -69,6 +69,8 @@ class Bus {
   /// From now on every poll() leaves a sign of life in this file (net/alive.h). Returns when it says that all others
   /// are ready too, or `stop` does. Empty: at once, and none is left.
   Status ready_with_the_others(const std::filesystem::path& alive_file, const std::function<bool()>& stop);
+  /// Tells whoever watches that file that this process ends by RigControl::Quit.
+  void leaves_as_told();
 
   /// Sleeps until something waits (true), or time is up or a signal came (false).
   bool wait(std::chrono::nanoseconds at_most);

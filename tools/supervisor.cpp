@@ -85,6 +85,12 @@ bool Supervisor::one_has_left() const {
 
 bool Supervisor::look_after(Watched& process) {
   const auto now = Clock::now();
+  told_to_leave_ = told_to_leave_ || (process.alive && process.alive->left_as_told());
+  if (told_to_leave_) {  // nobody comes back: the command is sent once
+    process.left.reset();
+    if (process.due.has_value()) process.done = true;
+    process.due.reset();
+  }
   if (process.due && now >= *process.due) {
     process.due.reset();
     std::vector<std::string> arguments = process.spec.arguments;
@@ -115,6 +121,11 @@ bool Supervisor::look_after(Watched& process) {
   // Bad input stays bad however often it is read again; the process has said what it is.
   if (end->signal == 0 && end->exit_code == kExitBadInput) {
     return give_up(kExitBadInput, process.spec.name + " refused its input (see above)");
+  }
+  if (told_to_leave_) {
+    process.done = true;
+    add_ended_badly(process);
+    return true;
   }
   return restart(process, process.ended_because.empty() ? end->text() : process.ended_because);
 }
@@ -154,6 +165,10 @@ bool Supervisor::give_up(int exit_code, std::string why) {
   return false;
 }
 
+void Supervisor::add_ended_badly(const Watched& process) {
+  ended_badly_ += (ended_badly_.empty() ? "" : "; ") + process.spec.name + " ended with " + process.last_end;
+}
+
 void Supervisor::end_all(std::chrono::milliseconds grace, const std::function<bool()>& hurry) {
   constexpr std::chrono::milliseconds kReaped(500);
   auto deadline = Clock::now() + grace;
@@ -173,8 +188,7 @@ void Supervisor::end_all(std::chrono::milliseconds grace, const std::function<bo
         process.last_end = end->text();
         process.child.reset();
         const bool as_asked = end->signal == 0 ? end->exit_code == kExitDone : end->signal == SIGTERM || killed;
-        if (!as_asked)
-          ended_badly_ += (ended_badly_.empty() ? "" : "; ") + process.spec.name + " ended with " + process.last_end;
+        if (!as_asked) add_ended_badly(process);
       } else {
         any = true;
       }

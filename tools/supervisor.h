@@ -100,6 +100,7 @@ class Supervisor {
   void end_if_hung(Watched& process);
   bool look_after(Watched& process);
   static Clock::duration lived(const Watched& process);
+  void add_ended_badly(const Watched& process);
   bool pictures_go_on_since(Clock::time_point then) const;
   bool restart(Watched& process, const std::string& because);
   bool give_up(int exit_code, std::string why);
@@ -108,6 +109,7 @@ class Supervisor {
   std::chrono::milliseconds short_life_;
   std::vector<Restart> restarts_;
   Clock::time_point started_ = Clock::now();
+  bool told_to_leave_ = false;  ///< by RigControl::Quit: whoever ends stays away
   int exit_code_ = kExitDone;
   std::string why_, ended_badly_;
 };

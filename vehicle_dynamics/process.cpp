@@ -145,6 +145,7 @@ Verbs DynamicsProcess::verbs() {
   Verbs verbs;
   verbs.on<RigControl::Quit>([this](const auto&) {
     stop_.request();
+    bus_.leaves_as_told();
     return accepted("leaves");
   });
   verbs.on<RigControl::Pause>([this](const RigControl::Pause& pause) {

@@ -128,6 +128,27 @@ TEST(Supervisor, RestartsOneThatLeavesWhileThePicturesGoOn) {
   std::filesystem::remove(file("drawing"));
 }
 
+// Of a quit that the pictures have not heard, for they were busy, or died before they did.
+TEST(Supervisor, NobodyComesBackAfterAQuit) {
+  const auto file = std::filesystem::path(testing::TempDir()) / ("phare_quit" + std::to_string(getpid()));
+  auto alive = AliveFile::open(file);
+  ASSERT_TRUE(alive);
+  Supervisor supervisor({{"dynamics", "/bin/sh", {"-c", "sleep 0.2"}, false, {}, file, HungAfter{}},
+                         {"visual-0", "/bin/sh", {"-c", "sleep 2; exit 1"}, true, {}, file, HungAfter{}}});
+  ASSERT_TRUE(supervisor.start());
+  alive->leaves_as_told();
+  const auto until = std::chrono::steady_clock::now() + 1500ms;
+  while (std::chrono::steady_clock::now() < until) {
+    alive->beat();  // as the pictures do
+    ASSERT_TRUE(supervisor.step());
+    std::this_thread::sleep_for(5ms);
+  }
+  EXPECT_TRUE(over_within(supervisor, 10s));
+  EXPECT_TRUE(supervisor.restarts().empty());
+  EXPECT_EQ(supervisor.ended_badly(), "visual-0 ended with exit 1");
+  std::filesystem::remove(file);
+}
+
 TEST(Supervisor, BadInputIsNotTriedAgain) {
   Supervisor supervisor(
       {{"cockpit", "/bin/ls", {"/no/such/file"}}, {"visual-0", "/bin/sleep", {"60"}, true}});  // ls: exit 2

@@ -61,6 +61,7 @@ Loop::Loop(Session& session)
       screens_(screens_of(session.options, session.rig)) {
   verbs_.on<RigControl::Quit>([this](const auto&) {
     s_.stop.request();
+    s_.bus.leaves_as_told();
     return accepted("leaves");
   });
   // A point that is set is read at once: the headless twin of a click.
