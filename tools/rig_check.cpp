@@ -81,6 +81,8 @@ class Checker {
     CarState start;
     if (!fs::exists(lane, ignored)) {
       found_.warnings.push_back(lane.string() + ": no such file: the car starts at the scene's origin");
+    } else if (const auto points = lane_beside(file); !points) {
+      problem(points.error());
     } else if (const auto on_lane = start_of_lane(lane); on_lane) {
       start = *on_lane;
     } else {

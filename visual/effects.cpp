@@ -46,7 +46,7 @@ EffectDecision hdr_image(const EffectFacts& facts) {
   if (facts.clipping)
     return {0, "the view marks what the display clips, where the lamp pass applies the tone curve", true};
   if (facts.glare_drawn) return {1, "light scattered in the eye is added to luminance in cd/m²", true};
-  if (facts.drops_drawn) return {1, "drops are added to luminance in cd/m²", true};
+  if (facts.drops_drawn) return {1, "drops and flakes are added to luminance in cd/m²", true};
   if (!facts.over_luminance.empty())
     return {1, std::string(facts.over_luminance) + " is drawn over luminance in cd/m²", true};
   if (facts.spray_drawn) return {1, "spray mixes luminance in cd/m²", true};
@@ -157,8 +157,8 @@ EffectDecision windscreen(const EffectFacts& facts) {
 }
 
 EffectDecision spray(const EffectFacts& facts) {
-  if (facts.ground == 0) return {0, "the ground is dry"};
-  if (facts.spraying == 0) return {0, "no vehicle in view is fast enough to throw up water"};
+  if (facts.ground == 0 && !facts.false_colour) return {0, "the ground is dry"};
+  if (facts.spraying == 0 && !facts.false_colour) return {0, "no vehicle in view is fast enough to throw up water"};
   if (facts.lit_lamps == 0) return {0, "no lamp is lit"};
   if (facts.false_colour) return {0, "the view shows illuminance, as in clear air"};
   if (facts.clipping) return {0, "the view marks what the display clips of the scene itself"};

@@ -50,6 +50,17 @@ Result<std::vector<LanePoint>> read_lane(const std::filesystem::path& file) {
   return points;
 }
 
+Result<std::vector<LanePoint>> lane_beside(const std::filesystem::path& scene_file) {
+  const std::filesystem::path file = lane_file_of(scene_file);
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return std::vector<LanePoint>{};
+  const auto table = CsvTable::read(file);
+  if (!table) return table.error();
+  if (table->rows() != 1) return points_of(file, false);
+  const auto start = read_lane_start(file);
+  return start ? Result(std::vector<LanePoint>{}) : start.error();
+}
+
 Result<LanePoint> read_lane_start(const std::filesystem::path& file) {
   const auto points = points_of(file, true);
   if (!points) return points.error();

@@ -23,4 +23,7 @@ Result<std::vector<LanePoint>> read_lane(const std::filesystem::path& file);
 /// The first point of a lane file, which may lack s_m and curvature_1pm and have no other point.
 Result<LanePoint> read_lane_start(const std::filesystem::path& file);
 
+/// The lane of a scene; empty where it has none beside it, or where the file is of one point and says the start alone.
+Result<std::vector<LanePoint>> lane_beside(const std::filesystem::path& scene_file);
+
 }  // namespace phare

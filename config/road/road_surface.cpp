@@ -82,7 +82,10 @@ RoadSurface RoadSurface::from_triangles(const std::vector<Triangle>& triangles) 
     const double twice_area = p.x * q.y - p.y * q.x;  // seen from above
     const double longest2 = std::max(p.x * p.x + p.y * p.y + p.z * p.z, q.x * q.x + q.y * q.y + q.z * q.z);
     // Upright to a tenth of a degree or degenerate: no height of its own. The negation refuses NaN too.
-    if (!(std::abs(twice_area) > 1e-6 * longest2) || !std::isfinite(twice_area)) continue;
+    if (!(std::abs(twice_area) > 1e-6 * longest2) || !std::isfinite(twice_area)) {
+      ++surface.left_out_;
+      continue;
+    }
     Facet f{};
     f.x0 = a.x, f.y0 = a.y, f.z0 = a.z;
     f.ux = q.y / twice_area, f.uy = -q.x / twice_area;
@@ -243,6 +246,8 @@ std::optional<RoadPoint> RoadSurface::at(double x_m, double y_m) const {
 }
 
 std::string no_ground_below(const RoadSurface& surface, double x_m, double y_m) {
+  constexpr const char* kAsked = ": the car drives on a plane; is the scene in metres, with the axes of glTF (y up)?";
+  if (surface.all_upright()) return std::string("all that is named road or ground stands upright") + kAsked;
   if (surface.triangle_count() == 0) return "no node whose name begins with road or ground: the car drives on a plane";
   if (surface.at(x_m, y_m)) return "";
   char where[64];

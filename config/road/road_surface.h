@@ -52,6 +52,8 @@ class RoadSurface {
   bool has_friction() const { return has_friction_; }  ///< whether any material says one
 
   std::size_t triangle_count() const { return facets_.size(); }
+  /// Whether there were triangles, all of which stand upright or have no area.
+  bool all_upright() const { return facets_.empty() && left_out_ > 0; }
 
  private:
   // z over the triangle is a plane; (u, v) its barycentric coordinates, u = (a·d) with d = (x, y) - origin.
@@ -75,6 +77,7 @@ class RoadSurface {
   static bool touches(const Facet& facet, double x_m, double y_m, double half_m);
   void divide(const std::vector<std::uint32_t>& cell_start, const std::vector<std::uint32_t>& cell_facets);
 
+  std::size_t left_out_ = 0;  ///< triangles
   std::vector<Facet> facets_;
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> part_start_;  // facets of part k: part_facets_[part_start_[k] .. part_start_[k + 1])

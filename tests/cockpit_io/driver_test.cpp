@@ -58,6 +58,26 @@ TEST(Lane, ErrorsHavePlaces) {
   EXPECT_FALSE(read_lane(file).ok());
 }
 
+// What a scene has beside it: no file, a start alone, a lane, or a mistake with its place.
+TEST(Lane, OfASceneIsALaneNoneOrAnError) {
+  const auto scene = std::filesystem::path(testing::TempDir()) / "phare_scene.glb";
+  const auto beside = [&](const std::string& text) {
+    std::ofstream(lane_file_of(scene)) << text;
+    return lane_beside(scene);
+  };
+  std::filesystem::remove(lane_file_of(scene));
+  EXPECT_TRUE(lane_beside(scene)->empty());
+  EXPECT_TRUE(beside("x_m,y_m,z_m,heading_rad\n1,2,3,0\n")->empty());
+  const std::string header = "s_m,x_m,y_m,z_m,heading_rad,curvature_1pm\n";
+  EXPECT_EQ(beside(header + "0,1,2,3,0,0\n10,11,2,3,0,0\n")->size(), 2u);
+  EXPECT_EQ(beside(header + "0,1,2,3,0,0\n10,nan,2,3,0,0\n").error().place, lane_file_of(scene).string() + ":3");
+  EXPECT_EQ(beside(header + "5,1,2,3,0,0\n0,11,2,3,0,0\n").error().text(),
+            lane_file_of(scene).string() + ":3: s_m does not rise");
+  EXPECT_FALSE(beside("").ok());
+  EXPECT_FALSE(beside("a,b\n1,2\n").ok());
+  std::filesystem::remove(lane_file_of(scene));
+}
+
 TEST(Driver, SpeedKeepsTheLimits) {
   const DriverScript script = *parse_driver_script(kScript, "s.toml");
   const auto points = lane();

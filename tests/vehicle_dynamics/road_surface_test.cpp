@@ -82,6 +82,9 @@ TEST(RoadSurface, DegenerateTrianglesAreLeftOut) {
                                    {{glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(1, 0, 5)}, true},  // a wall
                                    {{glm::dvec3(kNan, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 5)}, true}});
   EXPECT_EQ(surface.triangle_count(), 0u);
+  // A scene whose axes are not glTF's has a road, but one that stands.
+  EXPECT_NE(no_ground_below(surface, 0.0, 0.0).find("stands upright"), std::string::npos);
+  EXPECT_NE(no_ground_below(RoadSurface(), 0.0, 0.0).find("no node"), std::string::npos);
 }
 
 // A winding strip of 2 m triangles through a country of few large ones, as real scenes are.

@@ -211,6 +211,9 @@ TEST(Effects, SprayNeedsWaterAVehicleAndALamp) {
   EXPECT_EQ(plan_effects({.lit_lamps = 2, .spraying = 3}, choices)[Effect::kSpray].reason,
             "3 vehicles throw up water of 1.2 mm");
   EXPECT_FALSE(plan_effects({.lit_lamps = 2}, choices).on(Effect::kSpray));
+  EXPECT_EQ(plan_effects({.lit_lamps = 2, .false_colour = true, .air = {.rain_mmph = 10.0}})[Effect::kSpray].reason,
+            "the view shows illuminance, as in clear air")
+      << "it rains: the ground is not dry";
   EXPECT_FALSE(plan_effects({.spraying = 3}, choices).on(Effect::kSpray)) << "in the dark";
   choices[static_cast<std::size_t>(Effect::kWetGround)] = 0;
   EXPECT_FALSE(plan_effects(facts, choices).on(Effect::kSpray)) << "the ground is dry by the user's word";

@@ -111,7 +111,7 @@ TEST_F(Explain, RainCallsForItsAirItsDropsAndTheirImage) {
       else if (wet[i].starts_with("spray ") && !snow)
         EXPECT_EQ(wet[i], "spray           off     no vehicle in view is fast enough to throw up water");
       else if (wet[i].starts_with("hdr image"))
-        EXPECT_EQ(wet[i], "hdr image       on      drops are added to luminance in cd/m²");
+        EXPECT_EQ(wet[i], "hdr image       on      drops and flakes are added to luminance in cd/m²");
       else
         EXPECT_EQ(wet[i], dry[i]);
     }

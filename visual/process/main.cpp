@@ -50,12 +50,6 @@ EyeAdaptation eye_of(const Session& session) {
   return eye;
 }
 
-/// The lane beside the scene; what is wrong with it is told by those who drive on it.
-std::vector<LanePoint> lane_of(const std::filesystem::path& scene_file) {
-  Result<std::vector<LanePoint>> lane = read_lane(lane_file_of(scene_file));
-  return lane ? std::move(*lane) : std::vector<LanePoint>{};
-}
-
 RendererOptions drawing_of(const VisualOptions& options, const Rig& rig) {
   RendererOptions drawing;
   drawing.width_px = options.width_px;
@@ -178,12 +172,13 @@ int draw_channel(VisualOptions options) {
   Result<Scene> scene = read_scene(rig->scene_file, progress);
   if (!scene) return refuse(scene.error());
   for (const std::string& note : scene->notes) spdlog::info("{}: {}", rig->scene_file.filename().string(), note);
-  std::vector<LanePoint> lane = lane_of(rig->scene_file);
+  Result<std::vector<LanePoint>> lane = lane_beside(rig->scene_file);
+  if (!lane) return refuse(lane.error());
   Result<Movers> movers = Movers::read();
   if (!movers) return refuse(movers.error());
   const Result<Props> props = Props::of(*movers);
   if (!props) return refuse(props.error());
-  Result<Traffic> traffic = Traffic::read(options.traffic_file.value_or(rig->traffic_file), lane, *movers);
+  Result<Traffic> traffic = Traffic::read(options.traffic_file.value_or(rig->traffic_file), *lane, *movers);
   if (!traffic) return refuse(traffic.error());
   if (options.road_cuts > 0) scene = refined(*scene, options.road_cuts, is_ground);
   Result<FixedLight> fixed = FixedLight::of(*scene, rig->street_lamps_file, rig->moon);
@@ -192,7 +187,7 @@ int draw_channel(VisualOptions options) {
   if (options.explain)
     return explain_and_leave(
         options, *rig, *lamps, desk,
-        {channel, *scene, *movers, *props, *traffic, RoadLine(lane, rig->scene_file), *fixed_light}, fixed_light);
+        {channel, *scene, *movers, *props, *traffic, RoadLine(*lane, rig->scene_file), *fixed_light}, fixed_light);
   LampReplay lamps_then;
   const double asked_s = options.still_at_s;
   double ends_s = std::numeric_limits<double>::infinity();  // as far as that is known
@@ -246,7 +241,7 @@ int draw_channel(VisualOptions options) {
   session.props = *props;
   session.traffic = std::move(*traffic);
   session.fixed_light = fixed_light;
-  session.lane = std::move(lane);
+  session.lane = std::move(*lane);
   if (session.options.budget_ms > 0.0 && !session.options.lockstep && !session.options.levels.empty())
     session.governor = Governor(session.options.budget_ms, session.options.levels, session.options.begin_level);
   spdlog::info("drawing '{}' on {}, {}", session.channel().name, session.renderer.device(),
