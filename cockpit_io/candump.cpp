@@ -242,6 +242,12 @@ Result<CandumpLog> parse_candump(std::string_view text, const std::string& name)
 }
 
 Result<CandumpLog> read_candump(const std::filesystem::path& file) {
+  if (is_standard_input(file)) {
+    constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 32;
+    const auto came_in = read_input_bytes(file, kMostBytes);
+    if (!came_in) return came_in.error();
+    return parse_candump(*came_in, input_name(file));
+  }
   if (const std::string why = why_no_file(file); !why.empty()) return Error{file.string(), why};
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return Error{file.string(), "cannot be read"};

@@ -5,6 +5,7 @@
 
 #include "config/base/paths.h"
 #include "config/cockpit.h"
+#include "config/formats/filled_text.h"
 #include "config/formats/toml_table.h"
 #include "config/rig.h"
 
@@ -52,7 +53,7 @@ SlowStretch read_slow(TomlTable table) {
 Result<DriverScript> read_script(TomlTable root) {
   DriverScript script;
   script.file = root.file();
-  script.lane_file = resolve_path(root.text("lane"), root.file());
+  script.lane_file = resolve_path(filled_text(root, "lane"), root.file());
   script.end_s_m = root.number_or("end_s_m", 1e9, 1.0, 1e9);
   script.end_t_s = root.number_or("end_t_s", 1e9, 0.1, 1e9);
   script.light =

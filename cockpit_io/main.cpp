@@ -14,8 +14,11 @@
 #include "cockpit_io/process.h"
 #include "cockpit_io/source.h"
 #include "config/base/fail.h"
+#include "config/base/standard_output.h"
 #include "config/cockpit.h"
+#include "config/empty_values.h"
 #include "config/finite_numbers.h"
+#include "config/port_base.h"
 #include "config/rig.h"
 #include "net/bus.h"
 #include "net/clock.h"
@@ -120,13 +123,15 @@ int run(int argc, char** argv) {
       ->check(number_within(0.0, 600.0))
       ->needs(learn_flag);
   app.add_option("--seconds", options.seconds, "With --learn: end after so long")->needs(learn_flag);
-  app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
+  app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)")
+      ->check(CLI::Range(kLowestPortBase, kHighestPortBase));
   app.add_flag("--open-bus", options.open_bus, "No key of the run: anyone on this machine may speak on the bus");
   app.add_option("--state", options.state_file,
                  "File of this run in which the controls are kept, for a process that takes this one's place");
   app.add_option("--alive", options.alive_file,
                  "File that says, ten times a second and more, that this process is not hung");
   take_finite_numbers_only(app);
+  refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
@@ -175,5 +180,5 @@ int run(int argc, char** argv) {
 }  // namespace phare
 
 int main(int argc, char** argv) {
-  return phare::run(argc, argv);
+  return phare::end_of_output("phare-cockpit", phare::run(argc, argv));
 }

@@ -18,8 +18,10 @@
 #include "config/base/input_files.h"
 #include "config/base/paths.h"
 #include "config/desk.h"
+#include "config/formats/filled_text.h"
 #include "config/formats/toml_table.h"
 #include "config/light_colour.h"
+#include "config/port_base.h"
 
 namespace phare {
 namespace {
@@ -60,7 +62,7 @@ void read_desk(TomlTable table, std::string_view name, std::size_t designs, Desk
 
 ChannelConfig read_channel(TomlTable table, std::size_t index) {
   ChannelConfig channel;
-  channel.name = table.text_or("name", "channel-" + std::to_string(index));
+  channel.name = table.has("name") ? filled_text(table, "name") : "channel-" + std::to_string(index);
   channel.width_px = static_cast<int>(table.integer_or("width_px", channel.width_px, 64, 16384));
   channel.height_px = static_cast<int>(table.integer_or("height_px", channel.height_px, 64, 16384));
   channel.fov_horizontal_rad = table.number_or("fov_horizontal_deg", 60.0, 1.0, 170.0) * kRadPerDeg;
@@ -75,7 +77,7 @@ ChannelConfig read_channel(TomlTable table, std::size_t index) {
 SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file) {
   SourceConfig source;
   source.function = static_cast<LampFunction>(table.choice("function", kLampFunctionNames));
-  source.file = resolve_path(table.text("file"), rig_file);
+  source.file = resolve_path(filled_text(table, "file"), rig_file);
   source.axis = static_cast<GammaAxis>(table.choice_or("axis", 0, kGammaAxisNames));
   source.c0_turn_deg = table.number_or("c0_deg", 0.0, -360.0, 360.0);
   source.mirror = table.flag_or("mirror", false);
@@ -86,9 +88,9 @@ SourceConfig read_source(TomlTable table, const std::filesystem::path& rig_file)
   source.yaw_rad = degrees(table, "yaw_deg", -180.0, 180.0);
   source.pitch_rad = degrees(table, "pitch_deg", -90.0, 90.0);
   source.roll_rad = degrees(table, "roll_deg", -180.0, 180.0);
-  if (table.has("pixels")) source.pixels = resolve_path(table.text("pixels"), rig_file);
+  if (table.has("pixels")) source.pixels = resolve_path(filled_text(table, "pixels"), rig_file);
   if (table.has("pixel_map")) {
-    source.pixel_map = resolve_path(table.text("pixel_map"), rig_file);
+    source.pixel_map = resolve_path(filled_text(table, "pixel_map"), rig_file);
     if (!table.has("pixels")) table.fail("pixel_map", "says where the pixels of \"pixels\" shine, and there are none");
   }
   const LightColour colour = read_light_colour(table);
@@ -131,7 +133,7 @@ AimConfig read_aim(TomlTable& table) {
 
 void read_lamp(TomlTable table, const std::filesystem::path& rig_file, DesignConfig& design) {
   LampConfig lamp;
-  lamp.name = table.text("name");
+  lamp.name = filled_text(table, "name");
   lamp.position_m = place_in_car(table, "position_m", table.numbers("position_m", 3));
   lamp.aim = read_aim(table);
   for (TomlTable source : table.tables("source"))
@@ -153,7 +155,7 @@ void read_lamp(TomlTable table, const std::filesystem::path& rig_file, DesignCon
 
 DesignConfig read_design(TomlTable table, const std::filesystem::path& rig_file) {
   DesignConfig design;
-  design.name = table.text("name");
+  design.name = filled_text(table, "name");
   for (TomlTable lamp : table.tables("lamp")) read_lamp(lamp, rig_file, design);
   if (design.lamps.empty()) table.fail("lamp", "a design needs at least one [[design.lamp]]");
   if (design.lamps.size() > kMostLampsOfDesign) {
@@ -199,7 +201,7 @@ RigReading read_root(TomlTable root, const std::filesystem::path& file) {
   rig.file = rig_file;
   rig.name = root.text_or("name", rig_file.stem().string());
   rig.keep_design = root.flag_or("keep_design", rig.keep_design);
-  rig.scene_file = resolve_path(root.text("scene"), rig_file);
+  rig.scene_file = resolve_path(filled_text(root, "scene"), rig_file);
   if (const std::string traffic = root.text_or("traffic", ""); !traffic.empty())
     rig.traffic_file = resolve_path(traffic, rig_file);
   if (const std::string lamps = root.text_or("street_lamps", ""); !lamps.empty())
@@ -211,14 +213,15 @@ RigReading read_root(TomlTable root, const std::filesystem::path& file) {
     shining.illuminance_lx = moon->number_or("illuminance_lx", 0.0, 0.0, 0.5);
     if (shining.illuminance_lx > 0.0) rig.moon = shining;
   }
-  rig.vehicle_file = resolve_path(root.text("vehicle"), rig_file);
-  rig.cockpit_file = resolve_path(root.text("cockpit"), rig_file);
+  rig.vehicle_file = resolve_path(filled_text(root, "vehicle"), rig_file);
+  rig.cockpit_file = resolve_path(filled_text(root, "cockpit"), rig_file);
   if (auto bus = root.table_if("bus")) {
     rig.bind_address = bus->text_or("address", rig.bind_address);
     if (!is_ipv4(rig.bind_address))
       bus->fail("address", "\"" + rig.bind_address + "\" is not an IPv4 address such as 10.0.0.2");
     rig.places = read_bus_places(*bus);
-    rig.port_base = static_cast<std::uint16_t>(bus->integer_or("port_base", rig.port_base, 1024, 65500));
+    rig.port_base =
+        static_cast<std::uint16_t>(bus->integer_or("port_base", rig.port_base, kLowestPortBase, kHighestPortBase));
     rig.run_key = bus->flag_or("run_key", rig.run_key);
     const std::string key_file = bus->text_or("key_file", "");
     if (!key_file.empty()) {

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "config/port_base.h"
 #include "net/places.h"
 
 namespace phare {
@@ -40,6 +41,8 @@ std::span<const std::byte> bytes_of(const std::string& text) {
 }  // namespace
 
 namespace {
+
+static_assert(kHighestPortBase + kMaxPortOffset <= 65535);
 
 /// What keeps a rig from having a bus.
 Status check_rig(const Rig& rig) {

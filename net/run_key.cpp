@@ -54,9 +54,11 @@ Result<fs::path> run_folder() {
   const char* named = std::getenv("PHARE_RUN_DIR");
   const std::string user = std::to_string(geteuid());
   const fs::path of_user = fs::path("/run/user") / user;
+  std::error_code failed;
   const fs::path folder = named != nullptr && *named != '\0' ? fs::path(named)
                           : is_folder(of_user)               ? of_user / "phare"
-                                                             : fs::temp_directory_path() / ("phare-" + user);
+                                                             : fs::temp_directory_path(failed) / ("phare-" + user);
+  if (failed) return Error{"TMPDIR", "names no folder; the key of the run is kept there"};
   if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
     return Error{folder.string(), std::string("cannot be made: ") + std::strerror(errno) + kOpenBus};
   struct stat found {};

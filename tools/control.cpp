@@ -16,6 +16,7 @@
 #include "config/desk.h"
 #include "config/finite_numbers.h"
 #include "config/formats/toml_table.h"
+#include "config/port_base.h"
 #include "net/run_key.h"
 #include "tools/commands.h"
 #include "tools/control_client.h"
@@ -358,7 +359,7 @@ void add_control(CLI::App& app, Command& chosen) {
       "  phare control - < commands.txt");
   command->add_option("--rig", options->rig_file, "Rig file: address, ports, channels and key")->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
-      ->check(CLI::Range(1024, 65000));
+      ->check(CLI::Range(kLowestPortBase, kHighestPortBase));
   command->add_flag("--open-bus", options->open_bus, "Of a rig that runs with --open-bus: no key");
   command->add_option("--wait", options->wait_s, "Seconds to wait for an answer")
       ->check(number_within(0.01, 3600.0))

@@ -24,9 +24,10 @@ bool written_by_a_drive(const fs::path& file) {
 
 Result<DerivedRig> DerivedRig::for_drive(const fs::path& out) {
   DerivedRig rig;
-  std::error_code ignored;
+  std::error_code ignored, failed;
   if (out.empty()) {
-    rig.file_ = fs::temp_directory_path(ignored) / ("phare-rig-" + std::to_string(getpid()) + ".toml");
+    rig.file_ = fs::temp_directory_path(failed) / ("phare-rig-" + std::to_string(getpid()) + ".toml");
+    if (failed) return Error{"TMPDIR", "names no folder; the rig with a lamp of one's own is kept there"};
     rig.temporary_ = true;
     return rig;
   }

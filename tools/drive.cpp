@@ -475,10 +475,10 @@ void add_drive(CLI::App& app, Command& chosen) {
   command->callback([options, &app, &chosen] {
     spdlog::set_level(spdlog::level::from_str(options->log_level));
     options->command = {"phare", "drive"};
+    std::map<const CLI::Option*, std::size_t> given;  // how many values of it are told: each is given with its option
     for (const CLI::Option* option : app.get_subcommand("drive")->parse_order()) {
       options->command.push_back(option->get_name());
-      for (const std::string& value : option->get_expected_max() > 0 ? option->results() : CLI::results_t{})
-        options->command.push_back(value);
+      if (option->get_expected_max() > 0) options->command.push_back(option->results().at(given[option]++));
     }
     chosen = [options] { return drive(*options); };
   });

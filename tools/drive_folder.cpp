@@ -10,6 +10,7 @@
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string_view>
 #include <system_error>
 
 namespace phare {
@@ -55,6 +56,49 @@ std::vector<fs::path> channel_folders(const fs::path& out) {
   return folders;
 }
 
+constexpr std::string_view kFilesOfADrive[] = {"report.json",
+                                               "index.html",
+                                               "drive.csv",
+                                               "probes.csv",
+                                               "drive.mp4",
+                                               "drive.mp4.part",
+                                               "drive.mp4.txt",
+                                               "contact_sheet.png",
+                                               "drivers_view.png",
+                                               "birds_eye.png",
+                                               "wall_25m.png",
+                                               "versus.png",
+                                               "versus_difference.png",
+                                               "versus_birds_eye.png",
+                                               "versus_ratio.png",
+                                               "hdr.exr",
+                                               "eye.json"};
+
+bool all_digits(std::string_view text) {
+  return std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+/// Of designs, by their number: birds_eye_1.png.
+bool is_picture_of_a_design(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const std::size_t number = stem.rfind('_') + 1;
+  return (stem.starts_with("birds_eye_") || stem.starts_with("wall_25m_")) && number < stem.size() &&
+         all_digits(std::string_view(stem).substr(number)) && file.extension() == ".png" && file == file.filename();
+}
+
+/// What a link points at, there or not yet.
+fs::path behind_links(fs::path file) {
+  std::error_code failed;
+  for (int links = 0; links < 40 && fs::is_symlink(file, failed); ++links)
+    file = file.parent_path() / fs::read_symlink(file, failed);
+  return file;
+}
+
+/// frames/000007.png
+bool is_frame(const fs::path& file) {
+  return file.extension() == ".png" && all_digits(file.stem().string());
+}
+
 }  // namespace
 
 void remove_earlier_output(const fs::path& out, const std::vector<std::string>& process_names) {
@@ -64,29 +108,34 @@ void remove_earlier_output(const fs::path& out, const std::vector<std::string>& 
     fs::remove(folder / "frames", ignored);  // only when empty, as the folder
     fs::remove(folder, ignored);
   }
-  for (const char* file :
-       {"report.json", "index.html", "drive.csv", "probes.csv", "drive.mp4", "drive.mp4.part", "drive.mp4.txt",
-        "contact_sheet.png", "drivers_view.png", "birds_eye.png", "wall_25m.png", "versus.png", "versus_difference.png",
-        "versus_birds_eye.png", "versus_ratio.png", "hdr.exr", "eye.json"}) {
-    fs::remove(out / file, ignored);
-  }
+  for (const std::string_view file : kFilesOfADrive) fs::remove(out / file, ignored);
   for (const std::string& name : process_names) fs::remove(out / (name + ".json"), ignored);
   remove_half_written(out, process_names);
-  // Of designs, by their number: birds_eye_1.png.
-  for (const auto& entry : fs::directory_iterator(out, ignored)) {
-    const std::string stem = entry.path().stem().string();
-    const std::size_t number = stem.rfind('_') + 1;
-    const bool ours = (stem.starts_with("birds_eye_") || stem.starts_with("wall_25m_")) && number < stem.size() &&
-                      std::all_of(stem.begin() + static_cast<std::ptrdiff_t>(number), stem.end(),
-                                  [](unsigned char c) { return std::isdigit(c); });
-    if (ours && entry.path().extension() == ".png") fs::remove(entry.path(), ignored);
+  for (const auto& entry : fs::directory_iterator(out, ignored))
+    if (is_picture_of_a_design(entry.path().filename())) fs::remove(entry.path(), ignored);
+  for (const auto& entry : fs::directory_iterator(out / "frames", ignored))
+    if (is_frame(entry.path())) fs::remove(entry.path(), ignored);
+}
+
+Status apart_from_output(const fs::path& file, const fs::path& out, const Rig& rig) {
+  std::error_code failed;
+  fs::path within = fs::weakly_canonical(behind_links(fs::absolute(file)), failed)
+                        .lexically_relative(fs::weakly_canonical(fs::absolute(out), failed));
+  if (failed || within.empty()) return Done{};  // told where it is made
+  std::vector<std::string> processes{"cockpit", "dynamics"};
+  for (std::size_t channel = 0; channel < rig.channels.size(); ++channel) {
+    processes.push_back("visual-" + std::to_string(channel));
+    // The first channel's pictures lie in the folder itself, those of each other one in a folder below.
+    const std::string& name = rig.channels[channel].name;
+    if (channel > 0 && within.begin()->string() == name) within = within.lexically_relative(name);
   }
-  for (const auto& entry : fs::directory_iterator(out / "frames", ignored)) {
-    const std::string stem = entry.path().stem().string();
-    const bool ours = entry.path().extension() == ".png" &&
-                      std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c); });
-    if (ours) fs::remove(entry.path(), ignored);
-  }
+  const std::string name = within.string();
+  const bool ours = name == "." || name == "frames" || name == "rig.toml" ||
+                    std::ranges::find(kFilesOfADrive, name) != std::end(kFilesOfADrive) ||
+                    std::ranges::any_of(processes, [&](const auto& process) { return name == process + ".json"; }) ||
+                    is_picture_of_a_design(within) || (within.parent_path() == "frames" && is_frame(within));
+  if (!ours) return Done{};
+  return Error{file.string(), "is a file that the drive itself writes into " + out.string()};
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "config/base/result.h"
+#include "config/rig.h"
 
 namespace phare {
 
@@ -20,6 +21,10 @@ void remove_half_written(const std::filesystem::path& out, const std::vector<std
 
 /// What an earlier drive left in the folder; nothing else in it is touched.
 void remove_earlier_output(const std::filesystem::path& out, const std::vector<std::string>& process_names);
+
+/// Error where `file`, which the user names, is one that a drive of this rig writes into its folder `out`: two would
+/// write it, and one be lost.
+Status apart_from_output(const std::filesystem::path& file, const std::filesystem::path& out, const Rig& rig);
 
 /// What an earlier drive of another command line has left in the folder, in words; empty: nothing.
 std::string another_drive_in(const std::filesystem::path& out, const std::vector<std::string>& command);

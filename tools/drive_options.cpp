@@ -8,10 +8,12 @@
 
 #include "config/base/input_files.h"
 #include "config/base/log_levels.h"
+#include "config/base/whole_file.h"
 #include "config/cockpit.h"
 #include "config/finite_numbers.h"
 #include "config/formats/toml_table.h"
 #include "config/key_bindings.h"
+#include "config/port_base.h"
 #include "config/vehicle.h"
 #include "tools/child_process.h"
 #include "tools/commands.h"
@@ -203,12 +205,15 @@ Result<Rig> prepare_drive(DriveOptions& options) {
   inputs.insert(inputs.end(), {options.drive, options.script, options.log, options.dbc, options.picture.traffic});
   inputs.insert(inputs.end(), options.car_and_road.begin(), options.car_and_road.end());
   if (const Status apart = check_inputs(inputs, {options.record}); !apart) return apart.error();
+  if (is_standard_output(options.record)) return Error{"--record " + options.record, "a recording goes into a file"};
   if (!options.overwrite)
     if (const Status none = no_recording_at(options.record); !none)
       return Error{none.error().place, none.error().reason + " without --overwrite"};
   if (options.headless && options.out.empty()) options.out = "out";
   if (!options.out.empty()) options.out = fs::absolute(options.out).lexically_normal().string();
   settle_out(options);
+  if (!options.record.empty() && !options.out.empty())
+    if (const Status apart = apart_from_output(options.record, options.out, *rig); !apart) return apart.error();
   if (options.open_bus) rig->run_key = false;
   for (const char* name : {"phare-cockpit", "phare-dynamics", "phare-visual"}) {
     if (access(program_beside_us(name).c_str(), X_OK) != 0)
@@ -274,7 +279,7 @@ void add_drive_options(CLI::App& command, const std::shared_ptr<DriveOptions>& o
       ->check(CLI::IsMember(kLogLevelNames))
       ->capture_default_str();
   command.add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
-      ->check(CLI::Range(1024, 65000));
+      ->check(CLI::Range(kLowestPortBase, kHighestPortBase));
   auto* single_file = command.add_flag("--single-file", options->single_file,
                                        "index.html holds its pictures and its video: one file that can be mailed");
   command.add_flag("--overwrite", options->overwrite,

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "config/base/whole_file.h"
 #include "tools/commands.h"
 #include "tools/help_data.h"
 
@@ -12,9 +13,9 @@ namespace {
 
 /// To standard output, or into a file whose folder is made.
 int give(const std::string& text, const std::string& out) {
-  if (out.empty()) {
-    std::cout << text << std::flush;
-    return std::cout ? kExitDone : kExitCheckFailed;
+  if (out.empty() || is_standard_output(out)) {
+    std::cout << text;
+    return kExitDone;
   }
   std::error_code failed;
   if (const auto folder = std::filesystem::path(out).parent_path(); !folder.empty())

@@ -2,10 +2,13 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <span>
 
 #include "config/base/input_files.h"
+#include "config/base/whole_file.h"
 #include "config/cockpit.h"
 #include "config/finite_numbers.h"
 #include "config/rig.h"
@@ -14,6 +17,8 @@
 #include "net/wire.h"
 #include "tools/can_import.h"
 #include "tools/commands.h"
+#include "tools/lamp/print_json.h"
+#include "tools/temporary_folder.h"
 #include "vehicle_dynamics/start_pose.h"
 
 namespace phare {
@@ -26,21 +31,39 @@ struct ImportArguments {
   CLI::Option *start = nullptr, *accelerator = nullptr, *brake = nullptr;
 };
 
+Status write_datagrams(const std::vector<Datagram>& datagrams, const std::filesystem::path& file,
+                       std::uint16_t port_base) {
+  auto writer = DriveWriter::create(file, port_base);
+  if (!writer) return writer.error();
+  for (const Datagram& datagram : datagrams) {
+    const std::string bytes = encode(datagram);
+    if (const Status status = writer->write(datagram, std::as_bytes(std::span(bytes))); !status) return status;
+  }
+  return Done{};
+}
+
+/// By way of a file: a drive file is written to one.
+Status write_to_standard_output(const std::vector<Datagram>& datagrams, std::uint16_t port_base) {
+  const TemporaryFolder folder;
+  if (folder.path().empty()) return Error{"", "no temporary folder can be made"};
+  const std::filesystem::path file = folder.path() / "drive.pcap";
+  if (const Status status = write_datagrams(datagrams, file, port_base); !status) return status;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (const Status written = write_whole_file("-", bytes); !written)
+    return Error{"standard output", written.error().reason};
+  return Done{};
+}
+
 /// Written beside the target and renamed when whole: bad input leaves nothing half-written.
 Status write_drive(const std::vector<Datagram>& datagrams, const std::filesystem::path& out, std::uint16_t port_base) {
+  if (is_standard_output(out)) return write_to_standard_output(datagrams, port_base);
   std::filesystem::path unfinished = out;
   unfinished += ".part";
   std::error_code failed;
-  {
-    auto writer = DriveWriter::create(unfinished, port_base);
-    if (!writer) return writer.error();
-    for (const Datagram& datagram : datagrams) {
-      const std::string bytes = encode(datagram);
-      if (const Status status = writer->write(datagram, std::as_bytes(std::span(bytes))); !status) {
-        std::filesystem::remove(unfinished, failed);
-        return status.error();
-      }
-    }
+  if (const Status status = write_datagrams(datagrams, unfinished, port_base); !status) {
+    std::filesystem::remove(unfinished, failed);
+    return status;
   }
   std::filesystem::rename(unfinished, out, failed);
   if (failed) {
@@ -53,6 +76,7 @@ Status write_drive(const std::vector<Datagram>& datagrams, const std::filesystem
 
 int import_drive(ImportArguments& arguments) {
   ImportOptions& options = arguments.import;
+  if (const Status alone = json_alone(arguments.out, arguments.json); !alone) return bad_input(alone.error());
   if (const Status apart = check_inputs({options.can_log.string(), options.dbc.string(), options.pose.string(),
                                          arguments.rig_file, arguments.onto, arguments.cockpit},
                                         {arguments.out});
@@ -109,7 +133,8 @@ int import_drive(ImportArguments& arguments) {
     std::printf("%s\n", report.dump(2).c_str());
   } else {
     const ImportCounts& c = drive->counts;
-    std::printf(
+    std::fprintf(
+        is_standard_output(arguments.out) ? stderr : stdout,
         "%s: %.2f s, %.1f m, %llu messages from %llu CAN frames (%llu used, %llu of other ids, %llu undecodable, "
         "%llu stamped no later than one before, %llu outside), %llu broken lines and %llu poses\n",
         arguments.out.c_str(), drive->duration_s, drive->distance_m,

@@ -12,6 +12,8 @@
 
 #include "config/base/fail.h"
 #include "config/base/paths.h"
+#include "config/base/standard_output.h"
+#include "config/empty_values.h"
 #include "config/finite_numbers.h"
 #include "config/formats/toml_table.h"
 #include "tools/commands.h"
@@ -100,13 +102,22 @@ int run(int argc, char** argv) {
           {"", unknown_name_reason(i == 1 ? "command" : "command of " + at->get_name(), argv[i], commands)});
     at = *named;
   }
+  // CLI11 would take the next word for the value of "--record=".
+  for (const std::string word : std::vector<const char*>(argv + 1, argv + argc))
+    if (word.starts_with("--") && word.find('=') + 1 == word.size())
+      return bad_input({word.substr(0, word.size() - 1), "is given nothing (see --help)"});
   take_finite_numbers_only(app);
+  refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& wrong) {
-    return bad_input({"", std::string(wrong.what()) + " (see --help)"});
+    // A command that is missing may be an option that there is not: phare -V.
+    const std::vector<std::string> unknown = app.remaining(true);
+    const bool no_command = dynamic_cast<const CLI::RequiredError*>(&wrong) != nullptr && !unknown.empty();
+    const std::string what = no_command ? "unknown option " + unknown.front() : std::string(wrong.what());
+    return bad_input({"", what + " (see --help)"});
   }
   return chosen();
 }
@@ -117,7 +128,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::signal(SIGCHLD, SIG_DFL);  // a parent that ignores it hands that down, and how our children end would be lost
   try {
-    return phare::run(argc, argv);
+    return phare::end_of_output("phare", phare::run(argc, argv));
   } catch (const std::exception& failure) {  // out of memory, a full disk under a stream: leave with a reason
 #ifdef PHARE_WITH_GRAPHICS
     const std::string reason = phare::gpu::reason_of(failure);

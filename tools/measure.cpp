@@ -1,6 +1,7 @@
 // phare measure: illuminance in lux at points, through the picture's own shader or in float64.
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -11,9 +12,11 @@
 
 #include "config/base/input_files.h"
 #include "config/base/remedies.h"
+#include "config/base/whole_file.h"
 #include "config/finite_numbers.h"
 #include "config/rig.h"
 #include "tools/commands.h"
+#include "tools/lamp/print_json.h"
 #include "tools/reference_table.h"
 #include "tools/scene_shadows.h"
 #include "visual/fixed_light.h"
@@ -175,9 +178,9 @@ std::map<std::string, std::size_t> points_in_shadow(const std::optional<std::vec
   return shadows;
 }
 
-void print_shadows(const std::map<std::string, std::size_t>& shadows) {
+void print_shadows(std::FILE* to, const std::map<std::string, std::size_t>& shadows) {
   for (const auto& [name, count] : shadows)
-    std::printf("  %zu point%s in the shadow of %s\n", count, count == 1 ? "" : "s", name.c_str());
+    std::fprintf(to, "  %zu point%s in the shadow of %s\n", count, count == 1 ? "" : "s", name.c_str());
 }
 
 /// What stands in the light of the lamp that would be the strongest there, by its node; empty: nothing does.
@@ -237,10 +240,11 @@ int measure_street(const MeasureOptions& options) {
     std::printf("%s\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
     return kExitDone;
   }
-  std::printf("%s: %zu points, %zu street lamp%s, at most %.6g lx, in float64 on the CPU%s\n", options.out.c_str(),
-              measured.size(), light->street_lamps(), light->street_lamps() == 1 ? "" : "s", highest,
-              options.scene.empty() ? ", nothing stands in their light" : "");
-  print_shadows(shadows);
+  std::FILE* const told = is_standard_output(options.out) ? stderr : stdout;
+  std::fprintf(told, "%s: %zu points, %zu street lamp%s, at most %.6g lx, in float64 on the CPU%s\n",
+               options.out.c_str(), measured.size(), light->street_lamps(), light->street_lamps() == 1 ? "" : "s",
+               highest, options.scene.empty() ? ", nothing stands in their light" : "");
+  print_shadows(told, shadows);
   return kExitDone;
 }
 
@@ -316,6 +320,7 @@ int measure(const MeasureOptions& options) {
       inputs.push_back(file);
   }
   if (const Status apart = check_inputs(inputs, {options.out}); !apart) return bad_input(apart.error());
+  if (const Status alone = json_alone(options.out, options.json); !alone) return bad_input(alone.error());
   if (of_the_street(options)) return measure_street(options);
   if (!options.table.empty()) return measure_table(options);
   if (options.points.empty() || options.out.empty())
@@ -364,9 +369,11 @@ int measure(const MeasureOptions& options) {
     if (!options.scene.empty()) report["scene"] = options.scene, report["points_in_shadow_of"] = shadows;
     std::printf("%s\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
   } else {
-    std::printf("%s: %zu points, %zu lamp%s, at most %.6g lx, by %s (%s)\n", options.out.c_str(), illuminance.size(),
-                lamps->size(), lamps->size() == 1 ? "" : "s", highest, options.method.c_str(), device.c_str());
-    print_shadows(shadows);
+    std::FILE* const told = is_standard_output(options.out) ? stderr : stdout;
+    std::fprintf(told, "%s: %zu points, %zu lamp%s, at most %.6g lx, by %s (%s)\n", options.out.c_str(),
+                 illuminance.size(), lamps->size(), lamps->size() == 1 ? "" : "s", highest, options.method.c_str(),
+                 device.c_str());
+    print_shadows(told, shadows);
   }
   return kExitDone;
 }

@@ -6,6 +6,8 @@
 #include <memory>
 
 #include "config/base/input_files.h"
+#include "config/base/whole_file.h"
+#include "config/port_base.h"
 #include "net/clock.h"
 #include "net/run_key.h"
 #include "net/stats.h"
@@ -24,6 +26,7 @@ struct RecordOptions {
 
 int record(const RecordOptions& options) {
   if (const Status apart = check_inputs({options.rig_file}, {options.out}); !apart) return bad_input(apart.error());
+  if (is_standard_output(options.out)) return bad_input({"--out " + options.out, "a recording goes into a file"});
   if (const Status none = no_recording_at(options.out); !none) return bad_input(none.error());
   auto rig = read_rig(options.rig_file);
   if (!rig) return bad_input(rig.error());
@@ -62,7 +65,7 @@ void add_record(CLI::App& app, Command& chosen) {
   command->add_option("--rig", options->rig_file, "Rig file")->capture_default_str();
   command->add_option("--out", options->out, "Drive file to write")->required();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
-      ->check(CLI::Range(1024, 65000));
+      ->check(CLI::Range(kLowestPortBase, kHighestPortBase));
   command->add_flag("--open-bus", options->open_bus, "Of a rig that runs with --open-bus: no key");
   command->add_flag("--json", options->json, "Print the counts as JSON");
   command->callback([options, &chosen] { chosen = [options] { return record(*options); }; });

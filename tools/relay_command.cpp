@@ -4,6 +4,7 @@
 
 #include "config/base/paths.h"
 #include "config/finite_numbers.h"
+#include "config/port_base.h"
 #include "config/rig.h"
 #include "net/channels.h"
 #include "net/clock.h"
@@ -63,7 +64,7 @@ void add_bus_relay(CLI::App& app, Command& chosen) {
   command->add_option("--to", options->to, "Address of the rig behind")->required();
   command->add_option("--rig", options->rig_file, "Rig file: its first port")->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
-      ->check(CLI::Range(1024, 65000));
+      ->check(CLI::Range(kLowestPortBase, kHighestPortBase));
   const auto share = [&](const char* name, double& value, const char* what) {
     command->add_option(name, value, what)->check(number_within(0.0, 100.0))->capture_default_str();
   };

@@ -13,7 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "config/base/input_files.h"
 #include "config/finite_numbers.h"
+#include "config/port_base.h"
 #include "config/rig.h"
 #include "net/channels.h"
 #include "net/clock.h"
@@ -80,7 +82,16 @@ struct ReplayPorts {
   }
 };
 
+/// As long nobody may have taken anything before that is told: of a drive of an hour not only at its end.
+constexpr std::chrono::milliseconds kTellAfter{1500};
+
+std::string nobody_listens(const Rig& rig) {
+  return fmt::format("nobody listens at {}: no phare-visual of this rig and port base runs",
+                     text_of(endpoint_of(rig, Role::kVisual)));
+}
+
 int replay(const ReplayOptions& options) {
+  if (is_standard_input(options.file)) return bad_input({options.file, "a drive is read from a file"});
   auto rig = read_rig(options.rig_file);
   if (!rig) return bad_input(rig.error());
   if (options.port_base != 0) rig->port_base = options.port_base;
@@ -101,12 +112,16 @@ int replay(const ReplayOptions& options) {
   const std::uint64_t run_id = static_cast<std::uint64_t>(wall_now().ns) | 1u;
   const auto begin = std::chrono::steady_clock::now();
   std::uint64_t sent = 0;
+  SimTime sent_until{};
+  bool told = false;
   std::map<std::string, std::uint64_t> taken;
   for (Datagram& datagram : drive->datagrams) {
     const auto due = begin + std::chrono::nanoseconds(
                                  static_cast<std::int64_t>(static_cast<double>(datagram.sim_time.ns) / options.speed));
     while (!stop && std::chrono::steady_clock::now() < due) {
       std::this_thread::sleep_until(std::min(due, std::chrono::steady_clock::now() + std::chrono::milliseconds(50)));
+      const bool long_alone = sent > 0 && taken.empty() && std::chrono::steady_clock::now() - begin > kTellAfter;
+      if (long_alone && !std::exchange(told, true)) spdlog::warn("{}; the replay goes on", nobody_listens(*rig));
     }
     if (stop) break;
     datagram.start_id = datagram.start_id == run_id ? run_id : datagram.start_id ^ run_id;
@@ -117,20 +132,20 @@ int replay(const ReplayOptions& options) {
     std::string bytes = encode(datagram);
     seal.close(bytes);
     ++sent;
+    sent_until = datagram.sim_time;
     for (const auto& [name, at] : receivers_of(datagram, *rig))
       if (ports->of(datagram.sender).send_to(at, std::as_bytes(std::span(bytes)))) ++taken[name];
   }
   std::string heard;
   for (const auto& [name, count] : taken) heard += fmt::format(", {} by {}", count, name);
   std::printf("%llu datagrams sent%s; %.3f s of drive\n", static_cast<unsigned long long>(sent), heard.c_str(),
-              drive->duration.seconds());
+              sent_until.seconds());
   if (sent > 0 && taken.empty()) {
     std::fflush(stdout);
-    std::fprintf(stderr, "phare: nobody listens at %s: no phare-visual of this rig and port base runs\n",
-                 text_of(endpoint_of(*rig, Role::kVisual)).c_str());
-    return kExitCheckFailed;
+    std::fprintf(stderr, "phare: %s\n", nobody_listens(*rig).c_str());
+    if (!stop) return kExitCheckFailed;
   }
-  return kExitDone;
+  return stop ? kExitInterrupted : kExitDone;
 }
 
 }  // namespace
@@ -139,7 +154,8 @@ void add_replay(CLI::App& app, Command& chosen) {
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* command = app.add_subcommand("replay", "Send the datagrams of a drive file again, in real time");
   command->footer(
-      "Takes the place of phare-cockpit and phare-dynamics for a phare-visual that runs. Exit code 1: nobody listens.\n"
+      "Takes the place of phare-cockpit and phare-dynamics for a phare-visual that runs. Exit codes: 1 nobody "
+      "listens,\n130 interrupted.\n"
       "Example:\n  phare replay config/drives/country_road.pcap --speed 0.5");
   command->add_option("file", options->file, "Drive file")->required();
   command->add_option("--rig", options->rig_file, "Rig file: address, ports and channels")->capture_default_str();
@@ -147,7 +163,7 @@ void add_replay(CLI::App& app, Command& chosen) {
       ->check(number_within(0.01, 100.0))
       ->capture_default_str();
   command->add_option("--port-base", options->port_base, "First UDP port, instead of the rig's")
-      ->check(CLI::Range(1024, 65000));
+      ->check(CLI::Range(kLowestPortBase, kHighestPortBase));
   command->add_flag("--open-bus", options->open_bus, "Of a rig that runs with --open-bus: no key");
   command->callback([options, &chosen] { chosen = [options] { return replay(*options); }; });
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "config/base/shell_word.h"
 #include "tools/report.h"
 #include "tools/report_text.h"
 
@@ -205,7 +206,7 @@ class Tables {
     }
     page_ << "<tr><td>Phare</td><td class=\"text\">" << value_text(report_, "version") << ", commit "
           << value_text(report_, "commit") << "</td><td class=\"text\"><code>";
-    for (const json& word : report_["command"]) page_ << escaped(word.get<std::string>()) << ' ';
+    for (const json& word : report_["command"]) page_ << escaped(shell_word(word.get<std::string>())) << ' ';
     page_ << "</code></td></tr></table></div>";
   }
 

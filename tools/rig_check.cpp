@@ -35,10 +35,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// "-" is standard input; paths within are then relative to the working directory.
+Result<RigReading> reading_of(const fs::path& file) {
+  if (!is_standard_input(file)) return read_rig_whole(file);
+  constexpr std::uintmax_t kMostBytes = 64u << 20;
+  const auto text = read_input_bytes(file, kMostBytes);
+  if (!text) return text.error();
+  return read_rig_text(*text, input_name(file));
+}
+
 class Checker {
  public:
   RigFindings check(const fs::path& file) {
-    auto reading = read_rig_whole(file);
+    auto reading = reading_of(file);
     if (!reading) {
       found_.problems.push_back(reading.error());
       return std::move(found_);

@@ -6,6 +6,8 @@
 #include <memory>
 
 #include "config/base/fail.h"
+#include "config/base/input_files.h"
+#include "config/base/whole_file.h"
 #include "config/rig_writer.h"
 #include "tools/commands.h"
 #include "tools/lamp/print_json.h"
@@ -31,7 +33,8 @@ int rig_check(const RigCheckOptions& options) {
     for (const Error& error : found.problems) std::fprintf(stderr, "phare: %s\n", printable(error.text()).c_str());
     for (const std::string& text : found.warnings) std::printf("warning: %s\n", printable(text).c_str());
     for (const std::string& text : found.notes) std::printf("%s\n", printable(text).c_str());
-    if (found.problems.empty()) std::printf("%s: good, %zu warning(s)\n", options.file.c_str(), found.warnings.size());
+    if (found.problems.empty())
+      std::printf("%s: good, %zu warning(s)\n", input_name(options.file).c_str(), found.warnings.size());
   }
   return found.problems.empty() ? kExitDone : kExitBadInput;
 }
@@ -114,7 +117,7 @@ void add_rig(CLI::App& app, Command& chosen) {
   CLI::App* check_command =
       rig->add_subcommand("check", "Reads a rig and every file it names; exit code 2 when it cannot be driven");
   check_command->footer("Example:\n  phare rig check config/rigs/country_road.toml");
-  check_command->add_option("file", check->file, "Rig file")->required();
+  check_command->add_option("file", check->file, "Rig file; \"-\" is standard input")->required();
   check_command->add_flag("--json", check->json, "For machines");
   check_command->callback([check, &chosen] { chosen = [check] { return rig_check(*check); }; });
 
@@ -130,7 +133,10 @@ void add_rig(CLI::App& app, Command& chosen) {
   new_command->add_option("--out", made->out, "File to write [standard output]");
   new_command->add_flag("--portable", made->portable,
                         "Copy everything it names into FILE_files beside it, so that both can be moved");
-  new_command->callback([made, &chosen] { chosen = [made] { return rig_new(*made); }; });
+  new_command->callback([made, &chosen] {
+    if (is_standard_output(made->out)) made->out.clear();
+    chosen = [made] { return rig_new(*made); };
+  });
 }
 
 }  // namespace phare

@@ -9,7 +9,10 @@
 
 #include "config/base/fail.h"
 #include "config/base/log_levels.h"
+#include "config/base/standard_output.h"
+#include "config/empty_values.h"
 #include "config/finite_numbers.h"
+#include "config/port_base.h"
 #include "config/rig.h"
 #include "net/bus.h"
 #include "net/clock.h"
@@ -47,13 +50,15 @@ int run(int argc, char** argv) {
   app.add_option("--state", options.state_file,
                  "File of this run in which the car's state is kept, for a process that takes this one's place");
   app.add_option("--log-level", options.log_level, "How much to tell")->check(CLI::IsMember(kLogLevelNames));
-  app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)");
+  app.add_option("--port-base", options.port_base, "First UDP port (default: the rig's)")
+      ->check(CLI::Range(kLowestPortBase, kHighestPortBase));
   app.add_flag("--open-bus", options.open_bus, "No key of the run: anyone on this machine may speak on the bus");
   app.add_option("--alive", options.alive_file,
                  "File that says, ten times a second and more, that this process is not hung");
   BatchCommand batch;
   batch.add_to(app);
   take_finite_numbers_only(app);
+  refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -97,5 +102,5 @@ int run(int argc, char** argv) {
 }  // namespace phare
 
 int main(int argc, char** argv) {
-  return phare::run(argc, argv);
+  return phare::end_of_output("phare-dynamics", phare::run(argc, argv));
 }

@@ -109,6 +109,12 @@ bool of_looks_only(const std::string& name) {
          name == "KHR_lights_punctual" || name == "EXT_lights_ies";
 }
 
+/// nlohmann-json's words begin with a name of its exception that says nothing to a reader: "[json.exception.…] ".
+std::string without_exception(std::string words) {
+  if (words.starts_with("[json.exception.")) words.erase(0, words.find(']') + 1);
+  return words.substr(std::min(words.find_first_not_of(' '), words.size()));
+}
+
 bool is_read(const std::string& name) {
   return of_looks_only(name) || name == "KHR_mesh_quantization" || name == kMeshoptExtension;
 }
@@ -170,14 +176,14 @@ Result<tinygltf::Model> read_gltf(const std::filesystem::path& file, GltfImages 
     while (!error.empty() && (error.back() == '\n' || error.back() == ' ')) error.pop_back();
     for (char& c : error)
       if (c == '\n') c = ' ';
-    return bad(place, error.empty() ? "is not a glTF 2.0 file" : error);
+    return bad(place, "is not a glTF 2.0 file" + (error.empty() ? error : ": " + without_exception(error)));
   }
   for (const std::string& extension : model.extensionsRequired)
     if (!is_read(extension)) return bad(place, "requires the extension " + extension + ", which is not supported");
   if (Status done = unpack_meshopt(model); !done) return bad(place, done.error().text());
   return model;
 } catch (const std::exception& problem) {  // out of memory, or a JSON type tinygltf did not expect
-  return bad(file.string(), problem.what());
+  return bad(file.string(), without_exception(problem.what()));
 }
 
 Result<std::vector<std::uint32_t>> read_triangles(const tinygltf::Model& model, const tinygltf::Primitive& primitive,

@@ -21,11 +21,20 @@ class Parser(argparse.ArgumentParser):
 
 
 def leave(main: Callable[[], int]) -> NoReturn:
-    """Runs a command and ends with its exit code; silently where the reader of its output has left (`| head`)."""
+    """Runs a command and ends with its exit code; silently where the reader of its output has left (`| head`), in one line and with 2 where
+    what it printed could not be written."""
+    code: int | str | None
     try:
-        code = main()
+        try:
+            code = main()
+        except SystemExit as end:  # --help, and words that are wrong
+            code = end.code
         sys.stdout.flush()
-    except BrokenPipeError:
+    except OSError as wrong:
+        if wrong.filename is not None:
+            raise
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what Python flushes at its end goes there
-        code = _SIGPIPE
+        code = _SIGPIPE if isinstance(wrong, BrokenPipeError) else 2
+        if code == 2:
+            print(f"phare: standard output: cannot be written: {wrong.strerror}", file=sys.stderr)
     sys.exit(code)

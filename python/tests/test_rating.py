@@ -143,6 +143,14 @@ def test_the_command_says_what_it_is_not(rig, tmp_path):
     assert missing.returncode == 2 and "design even has no high beam" in missing.stderr
 
 
+def test_a_full_disk_is_told_in_one_line(rig):
+    environment = {**os.environ, "PYTHONPATH": str(Path(phare.__file__).parents[1])}
+    for words in (["iihs", "--rig", str(rig)], ["--help"]):
+        with open("/dev/full", "w") as full:
+            ran = subprocess.run([sys.executable, "-m", "phare.rate", *words], env=environment, stdout=full, stderr=subprocess.PIPE, text=True)
+        assert ran.returncode == 2 and ran.stderr == "phare: standard output: cannot be written: No space left on device\n"
+
+
 @pytest.mark.parametrize("words, said", [
     (["iihs", "--page", "x.html"], "--page: is of adb, and iihs is asked for"), (["iihs", "--delay", "0"], "--delay: is of adb"),
     (["adb", "--high-beam-assist"], "--high-beam-assist: is of iihs"), (["adb", "--speed", "9"], "unrecognized arguments: --speed"),

@@ -29,8 +29,8 @@ const std::string kConfig = source_dir() + "/config/";
 /// Runs in `folder` through the shell; stderr into `said`.
 int run(const fs::path& folder, const std::string& command, std::string& said) {
   // The words before "phare" are for env.
-  const std::string line = "cd '" + folder.string() + "' && timeout 100 env -u DISPLAY -u WAYLAND_DISPLAY " + command +
-                           " 2>&1 >/dev/null </dev/null";
+  const std::string line = "cd '" + folder.string() + "' && { timeout 100 env -u DISPLAY -u WAYLAND_DISPLAY " +
+                           command + "; } 2>&1 >/dev/null </dev/null";
   said.clear();
   FILE* pipe = popen(line.c_str(), "r");
   if (pipe == nullptr) return -1;
@@ -42,6 +42,12 @@ int run(const fs::path& folder, const std::string& command, std::string& said) {
 std::string text_of(const fs::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A script without its line `lane = …`.
+std::string without_lane(std::string script) {
+  const std::size_t at = script.find("\nlane = ") + 1;
+  return script.erase(at, script.find('\n', at) + 1 - at);
 }
 
 class BadInput : public testing::Test {
@@ -72,6 +78,11 @@ class BadInput : public testing::Test {
     fs::permissions(folder_ / "zero.key", fs::perms::owner_read | fs::perms::owner_write);
     write_rig("rig_place.toml", text, "[clock]", "[bus.dynamics]\nsend_to = \"car\"\n\n[clock]");
     write_rig("rig_far.toml", text, "[clock]", "[bus.dynamics]\nsend_to = \"10.0.0.2\"\n\n[clock]");
+    write_rig("rig_empty_scene.toml", text, "\"generated/scenes/country_road.glb\"", "\"\"");
+    write_rig("rig_empty_vehicle.toml", text, "\"../vehicles/hatchback.toml\"", "\"\"");
+    write_rig("rig_empty_cockpit.toml", text, "\"../cockpits/keyboard.toml\"", "\"\"");
+    write_rig("rig_empty_design.toml", text, "name = \"halogen\"", "name = \"\"");
+    write_rig("rig_high_ports.toml", text, "port_base = 47000", "port_base = 65501");
     write("rig_syntax.toml", "name = \"x\"\nscene = \n");
     write("bad.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6 oops\n1 2 3\n");
     write("good.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 3 2 2 2 0 0 0\n1 1 100\n0 1 2\n0 1\n5 6 7\n1 2 3\n");
@@ -90,6 +101,8 @@ class BadInput : public testing::Test {
     write("bad_cockpit.toml", "[source]\nkind = \"telepathy\"\n");
     write("bad.pcap", "not a capture\n");
     write("bad_script.toml", "at = [\n");
+    write("empty_lane.toml", "lane = \"\"\n" + without_lane(text_of(kConfig + "drives/country_road_script.toml")));
+    fs::create_symlink("out/here/report.json", folder_ / "to_report.pcap");
     write("bad.log", "nonsense\n");
     write("good.log", "(1.0) can0 500#0201000000000000\n");
     write("bad.dbc", "BO_ x\n");
@@ -171,7 +184,10 @@ TEST_F(BadInput, OfADrive) {
       {"no glTF", drive + "--rig rig_no_glb.toml", "absent.glb: no such file"},
       {"GLB cut off", drive + "--rig rig_bad_glb.toml", "bad.glb: "},
       {"glTF, a data URI short", drive + "--rig rig_short_uri.toml", "short_uri.gltf: "},
-      {"glTF not JSON", drive + "--rig rig_bad_gltf.toml", "line 2"},
+      {"glTF not JSON", drive + "--rig rig_bad_gltf.toml", "bad.gltf: is not a glTF 2.0 file: parse error at line 2"},
+      {"no temporary folder", "TMPDIR=/nonexistent " + drive + "--lamp good.ies", "TMPDIR: names no folder"},
+      {"ports too high", drive + "--rig rig_high_ports.toml", "65501 is outside 1024 … 65500"},
+      {"a script without a lane", drive + "--script empty_lane.toml", "empty_lane.toml:1: \"lane\": is empty"},
       {"vehicle", drive + "--rig rig_bad_car.toml", "bad_car.toml:"},
       {"cockpit file", drive + "--rig rig_bad_cockpit.toml", "bad_cockpit.toml:2: "},
       {"no drive", drive + "--drive absent.pcap", "absent.pcap: no such file"},
@@ -241,6 +257,14 @@ TEST_F(BadInput, OfADrive) {
       {"drive: record over a recording", "phare drive --headless --frames 2 --record bad.pcap",
        "bad.pcap: is there already"},
       {"record nowhere", drive + "--record /nonexistent/x.pcap", "/nonexistent/x.pcap: cannot be written"},
+      {"record over its report", drive + "--record out/here/report.json",
+       "is a file that the drive itself writes into"},
+      {"record over its rows", drive + "--record ./out/../out/here/drive.csv", "drive.csv: is a file that the drive"},
+      {"record over its page", drive + "--record out/here/index.html", "index.html: is a file that the drive itself"},
+      {"record over its counts", drive + "--record out/here/visual-0.json", "visual-0.json: is a file that the drive"},
+      {"record over its frames", drive + "--record out/here/frames/000001.png", "000001.png: is a file that the drive"},
+      {"record through a link", drive + "--record to_report.pcap", "to_report.pcap: is a file that the drive itself"},
+      {"record into standard output", drive + "--record -", "--record -: a recording goes into a file"},
       {"record over its drive", drive + "--drive bad.pcap --record ./bad.pcap", "it would be overwritten"},
       {"record over its script", drive + "--script bad_script.toml --record bad_script.toml",
        "it would be overwritten"},
@@ -267,6 +291,25 @@ TEST_F(BadInput, OfADrive) {
            std::to_string(port_base()),
        "rig.toml: is there, and no drive has written it"},
   });
+}
+
+// An option that is given nothing was not meant to be left out: a shell's variable was not set.
+TEST_F(BadInput, OfEmptyValues) {
+  std::vector<Case> cases{
+      {"drive: --rig=''", "phare drive --rig=''", "--rig: is given nothing"},
+      {"visual: --out", "phare-visual --rig rig.toml --out ''", "--out: is given nothing"},
+      {"visual: --stats", "phare-visual --rig rig.toml --stats ''", "--stats: is given nothing"},
+      {"cockpit: --cockpit", "phare-cockpit --rig rig.toml --cockpit ''", "--cockpit: is given nothing"},
+      {"dynamics: --vehicle", "phare-dynamics --rig rig.toml --vehicle ''", "--vehicle: is given"},
+      {"import: --pose", "phare import --out x.pcap --can good.log --pose ''", "--pose: is given"},
+      {"rig new: --out", "phare rig new --lamp good.ies --out ''", "--out: is given nothing"},
+      {"measure: --points", "phare measure --out x.csv --points ''", "--points: is given nothing"},
+      {"vehicle: --out", "phare vehicle good.tir --out ''", "--out: is given nothing"}};
+  for (const std::string option : {"--drive", "--script", "--log", "--dbc", "--design", "--cockpit", "--record",
+                                   "--vehicle", "--device", "--lamp"})
+    cases.push_back(
+        {"drive: " + option, "phare drive --headless --frames 1 " + option + " ''", option + ": is given nothing"});
+  expect_refused(cases);
 }
 
 TEST_F(BadInput, OfTheOtherCommands) {
@@ -300,6 +343,8 @@ TEST_F(BadInput, OfTheOtherCommands) {
       {"can: a DBC of another car", "phare can decode good.log --dbc " + source_dir() + "/config/examples/car.dbc",
        "the DBC file knows none"},
       {"no command", "phare ", "subcommand"},
+      {"an option that is none", "phare -V", "unknown option -V"},
+      {"an option that no lamp has", "phare lamp --jsno", "unknown option --jsno"},
       {"unknown command", "phare drvie", "no command \"drvie\"; did you mean \"drive\"?"},
       {"points without a number", measure + "--points bad.csv" + lamp, "short.ies:"},
       {"points with a word", measure + "--points bad.csv --rig rig.toml", "bad.csv:3: nz is not a finite number"},
@@ -369,6 +414,13 @@ TEST_F(BadInput, OfTheOtherCommands) {
       {"rig: no file", "phare rig check absent.toml", "absent.toml: no such file"},
       {"rig: not TOML", "phare rig check rig_syntax.toml", "rig_syntax.toml:2: "},
       {"rig: unknown key", "phare rig check rig_key_besides.toml", "no key \"scnee\"; did you mean \"scene\"?"},
+      {"rig: empty scene", "phare rig check rig_empty_scene.toml", "rig_empty_scene.toml:5: \"scene\": is empty"},
+      {"rig: empty vehicle", "phare rig check rig_empty_vehicle.toml",
+       "rig_empty_vehicle.toml:6: \"vehicle\": is empty"},
+      {"rig: empty cockpit", "phare rig check rig_empty_cockpit.toml",
+       "rig_empty_cockpit.toml:7: \"cockpit\": is empty"},
+      {"rig: empty design", "phare rig check rig_empty_design.toml", "\"design.name\": is empty"},
+      {"rig: of standard input", "phare rig check - < rig_empty_scene.toml", "standard input:5: \"scene\": is empty"},
       {"rig: bad lamp", "phare rig check rig_bad_ies.toml", "bad.ies:7: "},
       {"rig: no lamp", "phare rig check rig_no_ies.toml", "absent.ies: no such file"},
       {"rig: written over", "phare rig new --lamp good.ies --out rig.toml", "rig.toml: is there already"},
@@ -391,6 +443,8 @@ TEST_F(BadInput, OfTheOtherCommands) {
        "phare can decode good.log --interface can7 --dbc " + kConfig + "cockpits/phare_stalk.dbc",
        "good.log: no frame comes from can7, but from can0"},
       {"can: no DBC", "phare can list absent.dbc", "absent.dbc: no such file"},
+      {"can: a broken DBC of standard input", "phare can list - < bad.dbc", "standard input:1: "},
+      {"can: a broken log of standard input", "phare can crc - < bad.log", "standard input:1: "},
       {"can: no log", "phare can decode absent.log --dbc " + kConfig + "cockpits/phare_stalk.dbc", "absent.log: "},
       {"can: no such signals",
        "phare can decode good.log --signal BEAM_SWICH --signal FLASCH --dbc " + kConfig + "cockpits/phare_stalk.dbc",
@@ -399,6 +453,10 @@ TEST_F(BadInput, OfTheOtherCommands) {
       {"can: no DBC for it", "phare can check " + kConfig + "cockpits/toyota_rav4.toml --log good.log",
        "give one with --dbc"},
       {"can: a checksum in nothing", "phare can crc absent.log", "absent.log: "},
+      {"replay: standard input", "phare replay -", "-: a drive is read from a file"},
+      {"replay: the highest port", "phare replay absent.pcap --port-base 65500", "absent.pcap: "},
+      {"visual: the highest port", "phare-visual --rig absent.toml --port-base 65500", "absent.toml: "},
+      {"visual: above the highest port", "phare-visual --rig absent.toml --port-base 65501", "--port-base: "},
       {"replay: no drive", "phare replay absent.pcap", "absent.pcap: "},
       {"replay: not pcap", "phare replay bad.pcap", "bad.pcap: is no drive file"},
       {"measure: a rig and a lamp", measure + "--rig rig.toml --lamp good.ies,x=0,y=0,z=1 --points good.csv", "--lamp"},
@@ -426,7 +484,14 @@ TEST_F(BadInput, OfTheOtherCommands) {
        "far.csv:3: the point is not within 1e8 m"},
       {"cost: no rig", cost + "--rig absent.toml", "absent.toml: no such file"},
       {"cost: no vehicle", cost + "--vehicle absent.toml", "absent.toml: no such file"},
+      {"cost: against a table", cost + "--against good.csv", "good.csv: is no cost.json, as phare cost writes it"},
       {"cost: against no run", cost + "--against bad.log", "bad.log: "},
+      {"measure: JSON beside rows", "phare measure --method reference --rig rig.toml --points good.csv --out - --json",
+       "--out -: is standard output, where --json prints"},
+      {"lamp: JSON beside a lamp", "phare lamp convert good.ies --to csv --out - --json",
+       "--out -: is standard output"},
+      {"import: JSON beside a drive", "phare import --can good.log --out - --json", "--out -: is standard output"},
+      {"record: into standard output", "phare record --out -", "--out -: a recording goes into a file"},
       {"record over a recording", "phare record --out bad.pcap", "bad.pcap: is there already"},
       {"record nowhere", "phare record --out /nonexistent/x.pcap --port-base " + std::to_string(port_base()),
        "/nonexistent/x.pcap"},

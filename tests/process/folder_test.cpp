@@ -365,6 +365,34 @@ TEST_F(Folder, AReplayThatNobodyHearsSaysSo) {
   EXPECT_EQ(contents_of(folder_ / "told.txt").find(" by "), std::string::npos);
 }
 
+// Ctrl-C and a stop end it early: it says what it has sent, and long before the end that nobody listens.
+TEST_F(Folder, AReplayThatIsCutShortSaysSo) {
+  const std::string command = "timeout --preserve-status -s TERM 4 '" + std::string(program("phare")) +
+                              "' replay --port-base " + std::to_string(port_base()) + " '" + source_dir() +
+                              "/config/drives/country_road.pcap' >'" + (folder_ / "told.txt").string() + "' 2>'" +
+                              (folder_ / "said.txt").string() + "'";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 130);
+  const std::string said = contents_of(folder_ / "said.txt"), told = contents_of(folder_ / "told.txt");
+  EXPECT_NE(said.find("nobody listens at 127.0.0.1:"), std::string::npos);
+  EXPECT_NE(said.find("; the replay goes on"), std::string::npos) << said;
+  const std::size_t at = told.find("; ");
+  ASSERT_NE(at, std::string::npos) << told;
+  EXPECT_LT(std::stod(told.substr(at + 2)), 5.0) << told;
+}
+
+// The command that repeats a drive stands in its report as it was given.
+TEST_F(Folder, TheReportHasTheCommandAsGiven) {
+  ASSERT_EQ(drive_here("--frames 2 --out out --set lines=off --set 'probes=car 25 0 0'").code, 0);
+  const auto command = report_of(folder_ / "out")["command"].get<std::vector<std::string>>();
+  const std::vector<std::string> last{"--set", "lines=off", "--set", "probes=car 25 0 0"};
+  ASSERT_GT(command.size(), last.size());
+  EXPECT_EQ(std::vector<std::string>(command.end() - 4, command.end()), last);
+  EXPECT_EQ(std::ranges::count(command, "--set"), 2);
+  const std::string page = contents_of(folder_ / "out/index.html");
+  EXPECT_NE(page.find("--set lines=off --set 'probes=car 25 0 0' "), std::string::npos);
+}
+
 // The page on sending from a program of one's own, as it stands there: it has the key and is answered; without it,
 // nobody listens.
 TEST_F(Folder, TheProgramOfThePageOnSendingIsAnswered) {

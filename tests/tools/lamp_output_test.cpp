@@ -2,6 +2,9 @@
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 
+#include <string>
+#include <vector>
+
 #include "lamp_program.h"
 
 namespace phare {
@@ -66,6 +69,50 @@ TEST_F(LampOutput, AFullDiskIsReported) {
   }
   EXPECT_TRUE(std::filesystem::is_character_file(full));
   EXPECT_EQ(lamp(table_ + "--out " + folder_.string()).code, 2);
+}
+
+TEST_F(LampOutput, WhatIsPrintedOntoAFullDiskIsReported) {
+  std::string full = in("full");
+  if (::mknod(full.c_str(), S_IFCHR | 0666, makedev(1, 7)) != 0) full = "/dev/full";
+  const std::string low = ours("low_rht.ies"), examples = source_dir() + "/config/examples/";
+  const std::string dbc = source_dir() + "/config/cockpits/phare_stalk.dbc";
+  for (const std::string& arguments : std::vector<std::string>{
+           "lamp info " + low, "lamp info " + low + " --json", "lamp check --list", "rig new --lamp " + low,
+           "can list " + dbc, "can decode " + examples + "stalk.log --csv --dbc " + dbc, "manual", "help-data",
+           "completion bash", "--help", "--version"}) {
+    const Said said = phare(arguments + " > " + full);
+    EXPECT_EQ(said.code, 2) << arguments;
+    EXPECT_NE(said.err.find("phare: standard output: cannot be written: No space left on device\n"), std::string::npos)
+        << arguments << "\n"
+        << said.err;
+  }
+  // A reader who has left misses nothing.
+  const Said left = phare("--version; { { sleep 1; \"" + program("phare") + "\" help-data; echo $? >&2; } | true; }");
+  EXPECT_EQ(left.err, "141\n");
+}
+
+// A dash is standard output, and standard input, for every command that has one result or reads one file.
+TEST_F(LampOutput, ADashIsNoFile) {
+  const std::string low = ours("low_rht.ies"), config = source_dir() + "/config/";
+  for (const std::string arguments : {"manual", "help-data", "completion zsh"}) {
+    const Said plain = phare(arguments), dash = phare(arguments + " --out -");
+    EXPECT_EQ(dash.code, 0) << dash.err;
+    EXPECT_FALSE(plain.out.empty());
+    EXPECT_TRUE(dash.out == plain.out) << arguments;
+  }
+  const Said rig = phare("rig new --lamp " + low), dash = phare("rig new --lamp " + low + " --out -");
+  EXPECT_EQ(dash.code, 0) << dash.err;
+  EXPECT_EQ(dash.out, rig.out);
+  const std::string import = "import --can " + config + "examples/car.log --dbc " + config +
+                             "examples/car.dbc --pose " + config + "examples/car_pose.csv --out ";
+  const Said kept = phare(import + in("car.pcap")), given = phare(import + "-");
+  EXPECT_EQ(kept.code, 0) << kept.err;
+  EXPECT_EQ(given.code, 0) << given.err;
+  EXPECT_TRUE(given.out == test::content_of(in("car.pcap")));
+  EXPECT_EQ(phare("can list - < " + config + "cockpits/phare_stalk.dbc").out,
+            phare("can list " + config + "cockpits/phare_stalk.dbc").out);
+  EXPECT_EQ(phare("can decode - --dbc " + config + "cockpits/phare_stalk.dbc < " + config + "examples/stalk.log").out,
+            phare("can decode " + config + "examples/stalk.log --dbc " + config + "cockpits/phare_stalk.dbc").out);
 }
 
 TEST_F(LampOutput, ConvertWritesToStandardOutput) {

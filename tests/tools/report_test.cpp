@@ -36,7 +36,7 @@ TEST(Report, MergesWhatThereIs) {
   facts.process_names = {"cockpit", "dynamics", "visual-0"};
   facts.restarts = {{"dynamics", 1.5, "SIGKILL"}};
   facts.ends = {{"cockpit", "exit 0"}, {"dynamics", "SIGKILL"}, {"visual-0", "exit 0"}};
-  facts.command = {"phare", "drive"};
+  facts.command = {"phare", "drive", "--set", "probes=car 25 0 0"};
   std::ofstream(out / "others.toml") << "x";
   facts.traffic_file = out / "others.toml";
   const nlohmann::json report = make_report(rig, facts, out);
@@ -56,6 +56,7 @@ TEST(Report, MergesWhatThereIs) {
   EXPECT_NE(page.find("&lt;test&gt; &amp; road"), std::string::npos);
   EXPECT_NE(page.find("&lt;lavapipe&gt;"), std::string::npos);
   EXPECT_NE(page.find("birds_eye.png"), std::string::npos);
+  EXPECT_NE(page.find("phare drive --set 'probes=car 25 0 0' "), std::string::npos);
   EXPECT_NE(page.find("<td>traffic</td><td class=\"text\">others.toml"), std::string::npos);
   EXPECT_NE(
       page.find("62.5 frames a second: all frames after the first by all seconds since; 100 by the median interval"),

@@ -206,6 +206,17 @@ TEST(LampArgument, EveryKeyOfASource) {
   EXPECT_EQ(source.scale, 0.5);
 }
 
+TEST(Rig, NamesAndFilesSaySomething) {
+  EXPECT_EQ(rig_error("\"generated/scenes/a.glb\"", "\"\""), "phare_rig_test.toml:1: \"scene\": is empty");
+  EXPECT_EQ(rig_error("\"../car.toml\"", "\"\""), "phare_rig_test.toml:2: \"vehicle\": is empty");
+  EXPECT_EQ(rig_error("\"/etc/cockpit.toml\"", "\"\""), "phare_rig_test.toml:3: \"cockpit\": is empty");
+  EXPECT_EQ(rig_error("fov_hor", "name = \"\"\nfov_hor"), "phare_rig_test.toml:5: \"channel.name\": is empty");
+  EXPECT_EQ(rig_error("\"one\"", "\"\""), "phare_rig_test.toml:7: \"design.name\": is empty");
+  EXPECT_EQ(rig_error("\"head\"", "\"\""), "phare_rig_test.toml:9: \"design.lamp.name\": is empty");
+  EXPECT_EQ(rig_error("\"generated/lamps/l.ies\"", "\"\""),
+            "phare_rig_test.toml:14: \"design.lamp.source.file\": is empty");
+}
+
 TEST(LampArgument, FileNamesWithCommasQuotesAndEqualsSigns) {
   const auto file = [](const std::string& text) {
     const auto lamp = parse_lamp_argument(text);

@@ -66,8 +66,8 @@ Result<std::vector<RanksAlike>> compare_ranks(const json& now, const json& befor
         if (other.at("name") == ladder.at("name"))
           result.push_back(compare(ladder.at("name"), levels_of(ladder), levels_of(other)));
     return result;
-  } catch (const json::exception& error) {
-    return Error{"", std::string("is no cost.json: ") + error.what()};
+  } catch (const json::exception&) {
+    return Error{"", "is no cost.json, as phare cost writes it"};
   }
 }
 

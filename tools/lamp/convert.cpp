@@ -68,6 +68,7 @@ nlohmann::json as_json(const std::string& out, const std::string& format, const 
 }  // namespace
 
 int lamp_convert(const LampConvertOptions& options) {
+  if (const Status alone = json_alone(options.out, options.json); !alone) return bad_input(alone.error());
   std::vector<IntensityTable> parts;
   for (const std::string& file : options.files) {
     auto table = read_lamp(file, options.settings);
@@ -105,10 +106,8 @@ int lamp_convert(const LampConvertOptions& options) {
   if (!back) return bad_input(back.error());
   const TableDifference worst = difference_from_sum(pointers, *back);
   const double peak_cd = table.peak_cd();
-  const bool to_standard_output = is_standard_output(options.out);
   if (options.json) {
-    print_json(as_json(options.out, format, *back, options.files, worst, peak_cd),
-               to_standard_output ? stderr : stdout);
+    print_json(as_json(options.out, format, *back, options.files, worst, peak_cd));
     return kExitDone;
   }
   std::string hint;
@@ -120,7 +119,7 @@ int lamp_convert(const LampConvertOptions& options) {
                               : "; resampled";
   }
   std::fprintf(
-      to_standard_output ? stderr : stdout,
+      is_standard_output(options.out) ? stderr : stdout,
       "%s: %s, type %s%s, %zu × %zu values; worst difference from the %s %.3g cd (%.2g of the peak) among %zu "
       "directions%s\n",
       options.out.c_str(), back->version.c_str(), type_name(*back).c_str(),

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "config/base/result.h"
+#include "config/empty_values.h"
 #include "config/finite_numbers.h"
 #include "tools/scene/glb_writer.h"
 #include "tools/scene/lane_files.h"
@@ -79,6 +80,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", folder, "folder for country_road.glb, town.glb, motorway.glb, tunnel.glb, what belongs to each, and road_users.glb")
       ->required();
   phare::take_finite_numbers_only(app);
+  phare::refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

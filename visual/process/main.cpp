@@ -12,6 +12,7 @@
 
 #include "config/base/fail.h"
 #include "config/base/remedies.h"
+#include "config/base/standard_output.h"
 #include "net/drive_file.h"
 #include "net/run_key.h"
 #include "visual/gpu/failure.h"
@@ -267,11 +268,11 @@ int draw_channel(VisualOptions options) {
 
 int main(int argc, char** argv) {
   const ParsedOptions parsed = parse_options(argc, argv);
-  if (!parsed.options) return parsed.exit_code;
+  if (!parsed.options) return end_of_output("phare-visual", parsed.exit_code);
   spdlog::set_default_logger(spdlog::stderr_logger_mt("visual"));
   spdlog::set_level(spdlog::level::from_str(parsed.options->log_level));
   try {
-    return draw_channel(*parsed.options);
+    return end_of_output("phare-visual", draw_channel(*parsed.options));
   } catch (const std::exception& failure) {  // the device was lost, or memory ran out: say so once and leave
     spdlog::critical("phare-visual leaves: {}", gpu::reason_of(failure));
     return kExitCheckFailed;

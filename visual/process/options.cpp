@@ -7,8 +7,10 @@
 #include "config/base/fail.h"
 #include "config/base/log_levels.h"
 #include "config/cockpit.h"
+#include "config/empty_values.h"
 #include "config/finite_numbers.h"
 #include "config/picture_options.h"
+#include "config/port_base.h"
 #include "visual/photometry/beam/image_levels.h"
 
 namespace phare {
@@ -68,10 +70,12 @@ ParsedOptions parse_options(int argc, const char* const* argv) {
   app.add_option("--log-level", options.log_level, "trace, debug, info, warn, error, off")
       ->check(CLI::IsMember(kLogLevelNames))
       ->capture_default_str();
-  app.add_option("--port-base", port_base, "First UDP port, instead of the rig's")->check(CLI::Range(1024, 65000));
+  app.add_option("--port-base", port_base, "First UDP port, instead of the rig's")
+      ->check(CLI::Range(kLowestPortBase, kHighestPortBase));
   app.add_flag("--open-bus", options.open_bus, "No key of the run: anyone on this machine may speak on the bus");
   app.add_option("--alive", options.alive_file, "File that says, with every frame, that this process is not hung");
   take_finite_numbers_only(app);
+  refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

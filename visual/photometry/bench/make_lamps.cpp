@@ -8,6 +8,7 @@
 
 #include "config/base/paths.h"
 #include "config/base/whole_file.h"
+#include "config/empty_values.h"
 #include "config/finite_numbers.h"
 #include "visual/photometry/bench/check.h"
 #include "visual/photometry/bench/sample_lamps.h"
@@ -145,6 +146,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", out, "folder to write into")->required();
   app.add_flag("--verbose", verbose, "print every regulation row, not only the failed ones");
   phare::take_finite_numbers_only(app);
+  phare::refuse_empty_values(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
