@@ -49,8 +49,23 @@ Status choose_halves(const std::array<std::string_view, count>& names, Enum& cho
   return Done{};
 }
 
-Status set_compare(Desk& desk, std::string_view value, const DeskContext&) {
-  return choose_halves(kCompareNames, desk.compare, value, desk.layout == Layout::kSplit, "layout split");
+constexpr const char* kOneDesign = "the rig has one design";
+
+Status set_compare(Desk& desk, std::string_view value, const DeskContext& context) {
+  Compare chosen = desk.compare;
+  if (const Status done = choose_halves(kCompareNames, chosen, value, desk.layout == Layout::kSplit, "layout split");
+      !done)
+    return done.error();
+  if (chosen != Compare::kOff && context.designs < 2) return Error{"", kOneDesign};
+  desk.compare = chosen;
+  return Done{};
+}
+Status set_versus_aligned(Desk& desk, std::string_view value, const DeskContext& context) {
+  bool aligned = desk.versus_aligned;
+  if (const Status done = turn(aligned, value); !done) return done.error();
+  if (aligned && context.designs < 2) return Error{"", kOneDesign};
+  desk.versus_aligned = aligned;
+  return Done{};
 }
 Status set_layout(Desk& desk, std::string_view value, const DeskContext&) {
   return choose_halves(kLayoutNames, desk.layout, value, desk.compare == Compare::kSplit, "compare split");
@@ -324,7 +339,7 @@ constexpr DeskSetting kSettings[] = {
     {"versus", "next, 0, 1, ...", "the design beside that which shines; next: the one after it", true,
      set_number_of_design<&Desk::versus, kNextName>, get_number_of_design<&Desk::versus, kNextName>},
     {"versus_aligned", "off, on, toggle", "that design turned until both cut-offs stand equally high at 25 m", true,
-     set_flag<&Desk::versus_aligned>, get_flag<&Desk::versus_aligned>},
+     set_versus_aligned, get_flag<&Desk::versus_aligned>},
     {"view", "photo, false-colour, clipping, next",
      "as the eye sees it, illuminance by colour, or stripes where the display clips", true, set_view, get_view},
     {"method", "fragment, vertex, vertex-1998, reference, next", "where illuminance is computed: docs/accuracy.md",

@@ -1,6 +1,7 @@
 #include "config/desk_cameras.h"
 
 #include <cctype>
+#include <cmath>
 
 #include "config/desk_words.h"
 
@@ -68,11 +69,20 @@ Status check_camera_name(std::string_view name) {
 
 namespace {
 
+/// To 1e-6 m and degrees, as lamps are (config/rig_edit.cpp): no eye sees more, and a rig file is read by people.
+FreeEye rounded(FreeEye eye) {
+  constexpr double kParts = 1e6;
+  const auto round = [](double& value) { value = std::round(value * kParts) / kParts + 0.0; };
+  for (int axis = 0; axis < 3; ++axis) round(eye.position_m[axis]);
+  for (double* angle : {&eye.yaw_deg, &eye.pitch_deg, &eye.fov_deg}) round(*angle);
+  return eye;
+}
+
 /// "NAME", as the picture is seen, or "NAME car|world …"; one of that name is replaced.
 Status put_eye(std::vector<NamedEye>& eyes, std::span<const std::string> words, const FreeEye& seen_from) {
   const std::string name = words.empty() ? "" : words.front();
   if (const Status good = check_camera_name(name); !good) return good.error();
-  FreeEye eye = seen_from;
+  FreeEye eye = rounded(seen_from);
   if (words.size() > 1) {
     const auto read = eye_of(words.subspan(1));
     if (!read) return Error{"", name + ": " + read.error().reason};

@@ -7,6 +7,7 @@
 
 #include "config/desk_cameras.h"
 #include "config/finite_numbers.h"
+#include "config/picture_size.h"
 #include "config/rig.h"
 
 namespace phare {
@@ -18,8 +19,8 @@ bool parse_size(const std::string& text, int& width_px, int& height_px) {
   const auto width = std::from_chars(text.data(), end, width_px);
   if (width.ec != std::errc{} || width.ptr == end || *width.ptr != 'x') return false;
   const auto height = std::from_chars(width.ptr + 1, end, height_px);
-  return height.ec == std::errc{} && height.ptr == end && width_px >= 16 && height_px >= 16 && width_px <= 8192 &&
-         height_px <= 8192;
+  return height.ec == std::errc{} && height.ptr == end && std::min(width_px, height_px) >= kLeastSide_px &&
+         std::max(width_px, height_px) <= kMostSide_px;
 }
 
 template <std::size_t count>
@@ -72,7 +73,8 @@ void PictureOptions::add_to(CLI::App& app) {
             int width_px = 0, height_px = 0;
             return parse_size(text, width_px, height_px)
                        ? std::string()
-                       : "expected WIDTHxHEIGHT of 16 to 8192 pixels, got '" + text + "'";
+                       : "expected WIDTHxHEIGHT of " + std::to_string(kLeastSide_px) + " to " +
+                             std::to_string(kMostSide_px) + " pixels, got '" + text + "'";
           },
           "", "size");
   declare(app.add_option("--samples", samples, "Samples a pixel: 1 or 4"))

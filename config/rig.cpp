@@ -18,9 +18,11 @@
 #include "config/base/input_files.h"
 #include "config/base/paths.h"
 #include "config/desk.h"
+#include "config/drive_names.h"
 #include "config/formats/filled_text.h"
 #include "config/formats/toml_table.h"
 #include "config/light_colour.h"
+#include "config/picture_size.h"
 #include "config/port_base.h"
 
 namespace phare {
@@ -62,9 +64,11 @@ void read_desk(TomlTable table, std::string_view name, std::size_t designs, Desk
 
 ChannelConfig read_channel(TomlTable table, std::size_t index) {
   ChannelConfig channel;
-  channel.name = table.has("name") ? filled_text(table, "name") : "channel-" + std::to_string(index);
-  channel.width_px = static_cast<int>(table.integer_or("width_px", channel.width_px, 64, 16384));
-  channel.height_px = static_cast<int>(table.integer_or("height_px", channel.height_px, 64, 16384));
+  channel.name = table.text_or("name", "channel-" + std::to_string(index));
+  if (const std::string reason = why_no_channel_name(channel.name, index == 0); !reason.empty())
+    table.fail("name", "\"" + channel.name + "\": " + reason);
+  channel.width_px = static_cast<int>(table.integer_or("width_px", channel.width_px, kLeastSide_px, kMostSide_px));
+  channel.height_px = static_cast<int>(table.integer_or("height_px", channel.height_px, kLeastSide_px, kMostSide_px));
   channel.fov_horizontal_rad = table.number_or("fov_horizontal_deg", 60.0, 1.0, 170.0) * kRadPerDeg;
   const std::array eye_m{channel.eye_m.x, channel.eye_m.y, channel.eye_m.z};
   channel.eye_m = place_in_car(table, "eye_m", table.numbers_or("eye_m", eye_m));

@@ -158,6 +158,17 @@ Bytes block_of(const std::string& text, const TomlTable& lamp) {
   return block;
 }
 
+/// What a new rig says of a pair (config/rig_writer.h) holds of neither lamp alone; a comment of one's own stays.
+void drop_pair_comment(const std::string& text, Edits& edits, const TomlTable& lamp) {
+  const auto pair = lamp.region("pair");
+  if (!pair) return;
+  const std::size_t begin = bytes_of(text, *pair).end, end = std::min(text.find_first_of("\r\n", begin), text.size());
+  const std::size_t word = std::min(text.find_first_not_of(" \t", begin), end);
+  const std::string comment = "# " + std::string(kPairSays);
+  if (text.compare(word, comment.size(), comment) == 0 && text.find_first_not_of(" \t", word + comment.size()) >= end)
+    edits.replace(begin, end, "");
+}
+
 /// One of the two lamps that a pair is written as, with what holds for it.
 std::string half_of_pair(const std::string& block, const SavedMount& mount) {
   // The block alone is no rig; as one it has the same tables at the same bytes behind a line of its own.
@@ -171,6 +182,7 @@ std::string half_of_pair(const std::string& block, const SavedMount& mount) {
   Edits edits = lamp_edits(text, lamps.front(), mount);
   set_key(text, edits, lamps.front(), "name", toml_quoted(mount.lamp), "name");
   set_key(text, edits, lamps.front(), "pair", "false", "name");
+  drop_pair_comment(text, edits, lamps.front());
   std::string edited = edits.applied_to(text).substr(head.size());
   if (in_braces) edited.pop_back();
   return edited;

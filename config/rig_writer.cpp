@@ -188,7 +188,7 @@ class RigText {
   void write(const LampConfig& lamp, const std::string& name, bool pair) {
     out_ << "\n[[design.lamp]]\n";
     key("name", toml_quoted(name));
-    if (pair) key("pair", "true", "the left one; its twin sits at -y");
+    if (pair) key("pair", "true", std::string(kPairSays));
     key("position_m", vector_word(lamp.position_m));
     if (lamp.aim.kind == AimConfig::Kind::kCutoff)
       key("aim", "\"cut-off\"", "turned until its cut-off stands where UN R48 has it; \"as-filed\", or degrees up");

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 
 #include "config/rig.h"
 
@@ -25,6 +26,9 @@ struct RigWords {
 
 /// The text of a rig file. A left lamp and its twin are written as one with pair = true.
 std::string rig_text(const Rig& rig, const RigWords& words);
+
+/// The comment of "pair = true".
+inline constexpr std::string_view kPairSays = "the left one; its twin sits at -y";
 
 /// Shortest decimal that reads back as the same number.
 std::string number_word(double value);

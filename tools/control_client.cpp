@@ -74,7 +74,8 @@ std::string ControlClient::silence(const Open& open) const {
 
 void ControlClient::settle(Open& open) const {
   if (open.answer || !open.sent) return;
-  std::string now, waits;
+  std::string now, waits, reason;
+  std::set<std::string> done;
   bool missing = false;
   const std::set<std::string> concerns = processes_of(concerned(open.control), bus_.channels());
   const bool tells = std::holds_alternative<RigControl::Tell>(open.control.command);
@@ -85,11 +86,10 @@ void ControlClient::settle(Open& open) const {
       continue;
     }
     const ControlReply& reply = found->second;
+    if (reply.verdict == Verdict::kAccepted) done.insert(name);
     if (reply.verdict == Verdict::kRefused) {
-      open.answer = Answer{Outcome::kRefused, reply.reason};
-      return;
-    }
-    if (reply.verdict == Verdict::kPending) {
+      if (reason.empty()) reason = reply.reason;
+    } else if (reply.verdict == Verdict::kPending) {
       waits = name + " shows " + reply.now;
     } else if (tells) {
       now += (now.empty() ? "" : "\n") + name + ": " + reply.now;
@@ -98,7 +98,12 @@ void ControlClient::settle(Open& open) const {
     }
   }
   const auto waited = Clock::now() - *open.sent;
-  if (missing) {
+  if (!reason.empty()) {
+    // What some refuse others may have done, who have not answered yet.
+    if (missing && waited <= wait_) return;
+    open.answer =
+        Answer{Outcome::kRefused, done.empty() ? reason : reason + "; done by " + joined(done) + " all the same"};
+  } else if (missing) {
     if (waited > wait_) open.answer = Answer{Outcome::kSilent, silence(open)};
   } else if (waits.empty()) {
     open.answer = Answer{Outcome::kDone, now};

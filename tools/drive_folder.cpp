@@ -13,6 +13,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "config/drive_names.h"
+
 namespace phare {
 
 namespace fs = std::filesystem;
@@ -56,36 +58,6 @@ std::vector<fs::path> channel_folders(const fs::path& out) {
   return folders;
 }
 
-constexpr std::string_view kFilesOfADrive[] = {"report.json",
-                                               "index.html",
-                                               "drive.csv",
-                                               "probes.csv",
-                                               "drive.mp4",
-                                               "drive.mp4.part",
-                                               "drive.mp4.txt",
-                                               "contact_sheet.png",
-                                               "drivers_view.png",
-                                               "birds_eye.png",
-                                               "wall_25m.png",
-                                               "versus.png",
-                                               "versus_difference.png",
-                                               "versus_birds_eye.png",
-                                               "versus_ratio.png",
-                                               "hdr.exr",
-                                               "eye.json"};
-
-bool all_digits(std::string_view text) {
-  return std::ranges::all_of(text, [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
-/// Of designs, by their number: birds_eye_1.png.
-bool is_picture_of_a_design(const fs::path& file) {
-  const std::string stem = file.stem().string();
-  const std::size_t number = stem.rfind('_') + 1;
-  return (stem.starts_with("birds_eye_") || stem.starts_with("wall_25m_")) && number < stem.size() &&
-         all_digits(std::string_view(stem).substr(number)) && file.extension() == ".png" && file == file.filename();
-}
-
 /// What a link points at, there or not yet.
 fs::path behind_links(fs::path file) {
   std::error_code failed;
@@ -94,9 +66,10 @@ fs::path behind_links(fs::path file) {
   return file;
 }
 
-/// frames/000007.png
+/// 000007.png
 bool is_frame(const fs::path& file) {
-  return file.extension() == ".png" && all_digits(file.stem().string());
+  const std::string stem = file.stem().string();
+  return file.extension() == ".png" && std::ranges::all_of(stem, [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
 }  // namespace
@@ -105,15 +78,15 @@ void remove_earlier_output(const fs::path& out, const std::vector<std::string>& 
   std::error_code ignored;
   for (const fs::path& folder : channel_folders(out)) {
     remove_earlier_output(folder, {});
-    fs::remove(folder / "frames", ignored);  // only when empty, as the folder
+    fs::remove(folder / kDriveFrames, ignored);  // only when empty, as the folder
     fs::remove(folder, ignored);
   }
-  for (const std::string_view file : kFilesOfADrive) fs::remove(out / file, ignored);
+  for (const std::string_view file : kDriveFiles) fs::remove(out / file, ignored);
   for (const std::string& name : process_names) fs::remove(out / (name + ".json"), ignored);
   remove_half_written(out, process_names);
   for (const auto& entry : fs::directory_iterator(out, ignored))
-    if (is_picture_of_a_design(entry.path().filename())) fs::remove(entry.path(), ignored);
-  for (const auto& entry : fs::directory_iterator(out / "frames", ignored))
+    if (is_picture_of_design(entry.path().filename().string())) fs::remove(entry.path(), ignored);
+  for (const auto& entry : fs::directory_iterator(out / kDriveFrames, ignored))
     if (is_frame(entry.path())) fs::remove(entry.path(), ignored);
 }
 
@@ -130,10 +103,10 @@ Status apart_from_output(const fs::path& file, const fs::path& out, const Rig& r
     if (channel > 0 && within.begin()->string() == name) within = within.lexically_relative(name);
   }
   const std::string name = within.string();
-  const bool ours = name == "." || name == "frames" || name == "rig.toml" ||
-                    std::ranges::find(kFilesOfADrive, name) != std::end(kFilesOfADrive) ||
+  const bool ours = name == "." || name == kDriveFrames || name == "rig.toml" ||
+                    std::ranges::find(kDriveFiles, name) != kDriveFiles.end() ||
                     std::ranges::any_of(processes, [&](const auto& process) { return name == process + ".json"; }) ||
-                    is_picture_of_a_design(within) || (within.parent_path() == "frames" && is_frame(within));
+                    is_picture_of_design(name) || (within.parent_path() == kDriveFrames && is_frame(within));
   if (!ours) return Done{};
   return Error{file.string(), "is a file that the drive itself writes into " + out.string()};
 }
@@ -155,7 +128,7 @@ std::string another_drive_in(const fs::path& out, const std::vector<std::string>
     const std::string made_at = report.is_object() ? report.value("made_at", std::string()) : std::string();
     return made_at.empty() ? "the report of another drive" : "the drive of " + made_at;
   }
-  const fs::directory_iterator frames(out / "frames", ignored);
+  const fs::directory_iterator frames(out / kDriveFrames, ignored);
   const bool any = std::any_of(begin(frames), end(frames),
                                [](const fs::directory_entry& entry) { return entry.path().extension() == ".png"; });
   return any ? "the pictures of another drive" : "";
@@ -185,7 +158,7 @@ void remove_made(fs::path out, const fs::path& made) {
 void remove_traces(const fs::path& out, const fs::path& made, const std::vector<std::string>& process_names) {
   remove_earlier_output(out, process_names);
   std::error_code ignored;
-  fs::remove(out / "frames", ignored);  // only when empty
+  fs::remove(out / kDriveFrames, ignored);  // only when empty
   remove_made(out, made);
 }
 

@@ -89,6 +89,20 @@ Status choose_designs(Rig& rig, const Rig& as_filed, DriveOptions& options) {
   return Done{};
 }
 
+/// As the picture begins: as the rig has it, as --design and --versus choose, then as it is set by hand. Error: it
+/// cannot be, or a design would be compared with itself.
+Status check_desk(const Rig& rig, const DriveOptions& options) {
+  Desk desk = rig.desk;
+  std::vector<DeskCommand> commands;
+  for (const std::string& words : options.desk) commands.push_back(setting_of(words));
+  commands.insert(commands.end(), options.picture.desk.begin(), options.picture.desk.end());
+  for (const DeskCommand& command : commands)
+    if (const auto done = apply(desk, command, {.designs = rig.designs.size()}); !done) return done.error();
+  if (desk.compare == Compare::kOff || !desk.versus || desk.versus != desk.design) return Done{};
+  return Error{"versus " + std::to_string(*desk.versus),
+               options.design.empty() ? "is the design that shines" : "is the design that --design names"};
+}
+
 /// Lamps of one's own, and what every adjuster of the rig was turned by.
 Status aim_lamps(Rig& rig, DriveOptions& options) {
   auto notes = options.lamps.any() ? put_lamp_design(rig, options.lamps) : aim_notes(rig);
@@ -161,9 +175,7 @@ Result<Rig> prepare_drive(DriveOptions& options) {
   if (const Status status = aim_lamps(*rig, options); !status) return status.error();
   if (const Status status = choose_designs(*rig, as_filed, options); !status) return status.error();
 
-  Desk desk = rig->desk;
-  for (const DeskCommand& command : options.picture.desk)
-    if (const auto done = apply(desk, command, {.designs = rig->designs.size()}); !done) return done.error();
+  if (const Status status = check_desk(*rig, options); !status) return status.error();
 
   if (!options.headless && !set_in_environment("DISPLAY") && !set_in_environment("WAYLAND_DISPLAY")) {
     spdlog::info("no display: driving headless");

@@ -122,7 +122,8 @@ void Instruments::add_to(const std::function<void(const std::string& name, const
   for (const Case& one : cases) {
     Desk desk;
     for (const char* words : one.words)
-      if (const auto done = apply(desk, desk_command(words)); !done) throw std::runtime_error(done.error().text());
+      if (const auto done = apply(desk, desk_command(words), {.designs = 2}); !done)
+        throw std::runtime_error(done.error().text());
     add(one.name, [this, desk](int round) { return parts_->frame(desk, round); });
   }
   Desk desk;

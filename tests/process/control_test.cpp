@@ -152,7 +152,8 @@ TEST_F(Control, LampsAreMovedSavedAndReplayedBitForBit) {
     EXPECT_EQ(run.wait(), 0);
   }
   EXPECT_NE(whole(rig).find("position_m = [3.45, 0.62, 0.96]"), std::string::npos);
-  EXPECT_NE(whole(rig).find("# the left one; its twin sits at -y"), std::string::npos) << "comments stay";
+  EXPECT_NE(whole(rig).find("# halogen filament"), std::string::npos) << "comments stay";
+  EXPECT_EQ(whole(rig).find("its twin sits at -y"), std::string::npos) << "the left one was turned alone";
 
   // As it was recorded: the rig as it was then, and nobody commands.
   std::ofstream(rig) << text;

@@ -28,23 +28,12 @@ Rig rig_on_free_ports() {
   return rig;
 }
 
-/// Three processes that answer when they are asked to look.
+/// Cockpit, dynamics and a picture for each channel, that answer when they are asked to look.
 class PlayedRig {
  public:
   explicit PlayedRig(const Rig& rig) {
-    for (const Role role : {Role::kCockpit, Role::kDynamics, Role::kVisual}) {
-      Bus bus = std::move(*Bus::open(rig, role));
-      members_.push_back(std::make_unique<Member>(Member{std::move(bus), {}, true}));
-      Member& member = *members_.back();
-      member.bus.on_datagram = [this, &member](const Datagram& datagram, std::span<const std::byte>) {
-        ++heard;
-        if (lose && lose()) return;
-        member.desk.serve(member.bus, datagram, [&](const RigControl& control) {
-          if (member.bus.role() == Role::kVisual) done.push_back(control);
-          return act ? act(member.bus.role(), control) : accepted("yes");
-        });
-      };
-    }
+    open(rig, Role::kCockpit), open(rig, Role::kDynamics);
+    for (std::uint32_t channel = 0; channel < rig.channels.size(); ++channel) open(rig, Role::kVisual, channel);
   }
   void look() {
     for (auto& member : members_)
@@ -56,6 +45,7 @@ class PlayedRig {
   }
 
   std::function<ControlReply(Role, const RigControl&)> act;
+  std::function<ControlReply(std::uint32_t channel)> picture;
   std::function<bool()> lose;
   std::vector<RigControl> done;  ///< by visual
   std::size_t heard = 0;
@@ -66,6 +56,20 @@ class PlayedRig {
     ControlDesk desk;
     bool listens;
   };
+  void open(const Rig& rig, Role role, std::uint32_t channel = 0) {
+    members_.push_back(std::make_unique<Member>(Member{std::move(*Bus::open(rig, role, channel)), {}, true}));
+    Member& member = *members_.back();
+    member.bus.on_datagram = [this, channel, &member](const Datagram& datagram, std::span<const std::byte>) {
+      ++heard;
+      if (lose && lose()) return;
+      member.desk.serve(member.bus, datagram, [&](const RigControl& control) {
+        if (member.bus.role() == Role::kVisual) done.push_back(control);
+        if (picture) return picture(channel);
+        return act ? act(member.bus.role(), control) : accepted("yes");
+      });
+    };
+  }
+
   std::vector<std::unique_ptr<Member>> members_;
 };
 
@@ -98,6 +102,21 @@ TEST(ControlClient, TellsWhatHoldsNowOrWhyNot) {
   answer = answer_of(client, &played);
   EXPECT_EQ(answer.outcome, Outcome::kRefused);
   EXPECT_EQ(answer.text, "no design 7");
+}
+
+// Each picture has a desk of its own: what one refuses another has done, and the line says which.
+TEST(ControlClient, SaysWhoHasDoneWhatAnotherRefuses) {
+  Rig rig = rig_on_free_ports();
+  rig.channels.resize(3);
+  PlayedRig played(rig);
+  played.picture = [](std::uint32_t channel) {
+    return channel == 1 ? refused("halves taken") : accepted("compare split");
+  };
+  ControlClient client(std::move(*Bus::open_to_send(rig, Role::kControl)), rig, 60s);
+  client.put(RigControl{RigControl::Set{"compare", "split"}});
+  const ControlClient::Answer answer = answer_of(client, &played);
+  EXPECT_EQ(answer.outcome, Outcome::kRefused);
+  EXPECT_EQ(answer.text, "halves taken; done by visual-0, visual-2 all the same");
 }
 
 TEST(ControlClient, SaysThatNoRigRunsOrWhoIsSilent) {

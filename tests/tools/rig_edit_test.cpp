@@ -9,6 +9,7 @@
 
 #include "config/base/whole_file.h"
 #include "config/rig.h"
+#include "config/rig_writer.h"
 #include "tests/paths.h"
 
 namespace phare {
@@ -114,6 +115,25 @@ TEST(RigEdit, ThoseThatNoLongerMirrorBecomeTwo) {
   const auto again = with_mounts(*edited, "/x/rig.toml", both);
   ASSERT_TRUE(again) << again.error().text();
   EXPECT_EQ(rig_of(*again).designs[0].lamps[1].position_m.z, 0.8);
+}
+
+// What a new rig says of a pair goes with it; a comment of one's own stays.
+TEST(RigEdit, NoLampAloneIsToldToBeAPair) {
+  SavedMount higher = kRight;
+  higher.position_m.z = 0.9;
+  const SavedMount mounts[] = {higher};
+  EXPECT_NE(with_mounts(kRig, "/x/rig.toml", mounts)->find("pair = false                      # the left one\n"),
+            std::string::npos);
+  const std::string own = "pair = true                      # the left one\n";
+  for (const std::string end : {"\n", "\r\n"}) {
+    std::string text = kRig;
+    text.replace(text.find(own), own.size(), "pair = true  # " + std::string(kPairSays) + " " + end);
+    const auto edited = with_mounts(text, "/x/rig.toml", mounts);
+    ASSERT_TRUE(edited) << edited.error().text();
+    EXPECT_EQ(edited->find("twin"), std::string::npos) << *edited;
+    EXPECT_NE(edited->find("pair = false" + end + "position_m = [3.5, -0.7, 0.9]  # measured\n"), std::string::npos)
+        << *edited;
+  }
 }
 
 TEST(RigEdit, AMatrixInOneFileIsTurnedAsOne) {

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <fstream>
 #include <numbers>
 
+#include "config/picture_options.h"
 #include "tests/paths.h"
 
 namespace phare {
@@ -124,6 +126,47 @@ TEST(Rig, BadRigsSayWhere) {
   EXPECT_TRUE(rig_error("[[design.lamp]]", "[[design.lamp]").starts_with("phare_rig_test.toml:8: "));
 }
 
+// But for the first, a channel's pictures go into a folder of its name, in the folder of the drive.
+TEST(Rig, AChannelIsNamedAsAFolderThatIsFree) {
+  const auto named = [](const std::string& first, const std::string& second) {
+    return rig_error("fov_horizontal_deg = 90\n", "name = \"" + first + "\"\n[[channel]]\nname = \"" + second + "\"\n");
+  };
+  for (const char* bad : {"", ".", "..", "../../x", "/tmp/x", "a/b", "a\\u0000b"}) {
+    EXPECT_TRUE(named(bad, "left").starts_with("phare_rig_test.toml:5: \"channel.name\": ")) << bad;
+    EXPECT_TRUE(named("front", bad).starts_with("phare_rig_test.toml:7: \"channel.name\": ")) << bad;
+  }
+  for (const char* taken : {"frames", "index.html", "report.json", "drive.csv", "wall_25m.png", "birds_eye_1.png",
+                            "visual-0.json", "cockpit.json.tmp7"}) {
+    EXPECT_TRUE(named("front", taken).starts_with("phare_rig_test.toml:7: \"channel.name\": ")) << taken;
+    EXPECT_EQ(named(taken, "left"), "") << "the first has no folder of its own";
+  }
+  for (const char* good : {"left", "Kanal 2 (links)", "frames-2", "visual-0", "birds_eye_x.png", "...", "öst"})
+    EXPECT_EQ(named("front", good), "") << good;
+  EXPECT_NE(named("front", std::string(300, 'a')), "");
+}
+
+/// One pair of limits, as --size has.
+TEST(Rig, APictureMayBeAsSmallAndLargeAsBySize) {
+  const auto of_width = [](const std::string& width_px) {
+    return rig_error("fov_horizontal_deg", "width_px = " + width_px + "\nfov_horizontal_deg");
+  };
+  const auto by_size = [](const std::string& width_px) {
+    CLI::App app;
+    PictureOptions options;
+    options.add_to(app);
+    try {
+      app.parse("--size " + width_px + "x720");
+    } catch (const CLI::ParseError&) {
+      return false;
+    }
+    return true;
+  };
+  for (const char* width_px : {"16", "63", "8193", "16384"})
+    EXPECT_TRUE(of_width(width_px).empty() && by_size(width_px)) << width_px;
+  for (const char* width_px : {"15", "16385"})
+    EXPECT_FALSE(of_width(width_px).empty() || by_size(width_px)) << width_px;
+}
+
 TEST(Rig, AMatrixInOneFileIsASourceForEachEmitter) {
   std::string text = kGoodRig;
   text += "[[design.lamp.source]]\nfunction = \"high\"\nfile = \"matrix.xml\"\nemitters = 3\nyaw_deg = 2\n";
@@ -210,7 +253,6 @@ TEST(Rig, NamesAndFilesSaySomething) {
   EXPECT_EQ(rig_error("\"generated/scenes/a.glb\"", "\"\""), "phare_rig_test.toml:1: \"scene\": is empty");
   EXPECT_EQ(rig_error("\"../car.toml\"", "\"\""), "phare_rig_test.toml:2: \"vehicle\": is empty");
   EXPECT_EQ(rig_error("\"/etc/cockpit.toml\"", "\"\""), "phare_rig_test.toml:3: \"cockpit\": is empty");
-  EXPECT_EQ(rig_error("fov_hor", "name = \"\"\nfov_hor"), "phare_rig_test.toml:5: \"channel.name\": is empty");
   EXPECT_EQ(rig_error("\"one\"", "\"\""), "phare_rig_test.toml:7: \"design.name\": is empty");
   EXPECT_EQ(rig_error("\"head\"", "\"\""), "phare_rig_test.toml:9: \"design.lamp.name\": is empty");
   EXPECT_EQ(rig_error("\"generated/lamps/l.ies\"", "\"\""),

@@ -203,17 +203,40 @@ TEST(Desk, AddsACameraWhereThePictureIsSeenFrom) {
   EXPECT_EQ(desk.second_camera, "chase") << "which there is always";
 }
 
-TEST(Desk, TheHalvesOfThePictureAreOnesOnly) {
+// As lamps are: a rig file is read by people.
+TEST(Desk, ACameraThatIsAddedIsRounded) {
   Desk desk;
-  ASSERT_TRUE(apply(desk, desk_command("compare split")));
+  const DeskContext context{.seen_from = FreeEye{.position_m = {0.1 + 0.2, -9.00000012, 3.2},
+                                                 .yaw_deg = 1.0 / 3.0,
+                                                 .pitch_deg = -1e-9,
+                                                 .fov_deg = 50.0000004}};
+  EXPECT_EQ(*apply(desk, desk_command("cameras add k"), context), "cameras k car 0.3 -9 3.2 0.333333 0 50");
+}
+
+TEST(Desk, TheHalvesOfThePictureAreOnesOnly) {
+  const DeskContext two{.designs = 2};
+  Desk desk;
+  ASSERT_TRUE(apply(desk, desk_command("compare split"), two));
   EXPECT_EQ(apply(desk, desk_command("layout split")).error().text(),
             "layout: the halves of the picture are taken by compare split");
   EXPECT_EQ(desk.layout, Layout::kFull);
   EXPECT_EQ(*apply(desk, desk_command("layout next")), "layout inset") << "the key passes them by";
-  ASSERT_TRUE(apply(desk, desk_command("compare off")));
+  ASSERT_TRUE(apply(desk, desk_command("compare off"), two));
   ASSERT_TRUE(apply(desk, desk_command("layout split")));
-  EXPECT_FALSE(apply(desk, desk_command("compare split")));
-  EXPECT_EQ(*apply(desk, desk_command("compare next")), "compare flicker") << "the key passes them by";
+  EXPECT_FALSE(apply(desk, desk_command("compare split"), two));
+  EXPECT_EQ(*apply(desk, desk_command("compare next"), two), "compare flicker") << "the key passes them by";
+}
+
+TEST(Desk, ComparesNothingWhereTheRigHasOneDesign) {
+  Desk desk;
+  for (const char* words : {"compare split", "compare next", "versus_aligned on", "versus_aligned toggle"}) {
+    const DeskCommand command = desk_command(words);
+    const auto done = apply(desk, command, {.designs = 1});
+    ASSERT_FALSE(done) << words;
+    EXPECT_EQ(done.error().text(), command.setting + ": the rig has one design");
+  }
+  EXPECT_EQ(desk, Desk{});
+  EXPECT_TRUE(apply(desk, desk_command("compare off"), {.designs = 1}));
 }
 
 TEST(Desk, RefusesWithTheReasonAndChangesNothing) {
@@ -368,7 +391,8 @@ Desk by_key(KeyAction action) {
   Desk desk;
   Screens screens({});
   const KeyAction presses[] = {action};
-  EXPECT_FALSE(screens.press(presses, true, desk));
+  EXPECT_FALSE(screens.press(presses, true, desk,
+                             [&](const DeskCommand& command) { EXPECT_TRUE(apply(desk, command, {.designs = 2})); }));
   return desk;
 }
 
@@ -457,7 +481,7 @@ TEST(Desk, EveryKeyOfThePictureSetsSomethingThereIs) {
     Desk desk;
     if (binding.desk.empty()) continue;
     EXPECT_EQ(binding.actor, KeyActor::kPicture) << binding.name;
-    EXPECT_TRUE(apply(desk, desk_command(binding.desk))) << binding.name;
+    EXPECT_TRUE(apply(desk, desk_command(binding.desk), {.designs = 2})) << binding.name;
     EXPECT_NE(desk, Desk{}) << binding.name;
   }
 }

@@ -294,6 +294,9 @@ TEST_F(Explain, TheLinesShowWhatTheDeskSays) {
   const auto only = overlay_lines(desk_, lamps_, moment);
   ASSERT_EQ(only.size(), 1u + lamps_.lit_table_ends().size());
   EXPECT_EQ(only.back(), "POSE HELD: no VehicleState") << "what is wrong is told in any case";
+  moment.pose_held = false, moment.paused = true;
+  EXPECT_EQ(overlay_lines(desk_, lamps_, moment).back(), "PAUSED: phare control resume goes on");
+  moment.pose_held = true, moment.paused = false;
   desk_.effects = true;
   const auto with_effects = overlay_lines(desk_, lamps_, moment);
   EXPECT_EQ(with_effects.size(), only.size() + kEffectCount);

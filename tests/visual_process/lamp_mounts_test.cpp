@@ -261,6 +261,12 @@ TEST_F(LampMounts, KeysChooseAndMoveAndTheLinesSayWhatAndWhere) {
     }
     return command.has_value();
   };
+  for (const KeyBinding& binding : key_bindings())
+    EXPECT_EQ(LampKeys::has(binding.action),
+              LampKeys().press(binding.action, lamps_) || binding.action == KeyAction::kLampChoose ||
+                  binding.action == KeyAction::kLampQuantity || binding.action == KeyAction::kLampMore ||
+                  binding.action == KeyAction::kLampLess)
+        << binding.name;
   EXPECT_TRUE(keys.lines(lamps_).empty());
   EXPECT_FALSE(press(KeyAction::kLampMore)) << "nothing is chosen";
   press(KeyAction::kLampChoose);

@@ -118,11 +118,17 @@ TEST(DisplayClock, FollowsTheLeastDelayedMessage) {
 
 TEST(DisplayClock, StandsWhilePaused) {
   DisplayClock clock;
+  for (int i = 0; i < 100; ++i) clock.observe(SimTime{0}, WallTime{(i - 100) * 4'000'000});
+  EXPECT_FALSE(clock.stands()) << "the drive has not begun";
   for (int i = 0; i < 100; ++i) clock.observe(SimTime{i * 4'000'000}, WallTime{i * 4'000'000});
+  EXPECT_FALSE(clock.stands());
   for (int i = 100; i < 200; ++i) {
     clock.observe(SimTime{99 * 4'000'000}, WallTime{i * 4'000'000});
     EXPECT_NEAR(clock.at(WallTime{i * 4'000'000})->seconds(), 0.396, 1e-9);
+    EXPECT_EQ(clock.stands(), i > 99 + 50) << "steps may take 50 ms: told after 200";
   }
+  clock.observe(SimTime{100 * 4'000'000}, WallTime{200 * 4'000'000});
+  EXPECT_FALSE(clock.stands());
 }
 
 }  // namespace

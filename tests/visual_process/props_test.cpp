@@ -14,6 +14,7 @@
 #include "tests/visual_process/ground_square.h"
 #include "visual/process/cameras.h"
 #include "visual/process/pick.h"
+#include "visual/process/picture_instruments.h"
 #include "visual/process/traffic.h"
 
 namespace phare {
@@ -98,6 +99,36 @@ TEST_F(PropsTest, TheBodyStandsWhereTheCarIs) {
   EXPECT_GT(rear_m, -1.2);
   EXPECT_NEAR(from_axle.y, 0.0, 1e-12);
   EXPECT_NEAR(from_axle.z, 0.0, 1e-12);
+}
+
+// Lines of the road that the body hides are not drawn over it.
+TEST_F(PropsTest, TheBodyHidesLinesOfTheRoad) {
+  car_ = {};
+  const World world(nothing_, movers_.meshes());
+  Desk desk;
+  desk.grid_m = 3.0;
+  PictureInstruments instruments(desk, lamps_, world, RoadLine(), ProbeLog("", false));
+  for (const CameraKind kind : {CameraKind::kChase, CameraKind::kBirdsEye}) {
+    FrameInput picture;
+    picture.camera = camera_of({kind, {}}, {channel_, lamps_, car_});
+    const ViewGeometry view(picture.camera, 16.0 / 9.0);
+    const auto lines_from = [&](const std::optional<PlacedMesh>& own_car, const glm::dvec3& at_m) {
+      instruments.see({.car = car_, .picture = &picture, .own_car = own_car});
+      const glm::dvec4 clip = view.clip_from_eye() * glm::dvec4(at_m - picture.camera.eye_m, 1.0);
+      const double x_01 = 0.5 + 0.5 * clip.x / clip.w, y_01 = 0.5 + 0.5 * clip.y / clip.w;
+      return std::ranges::count_if(instruments.marks(true).lines, [&](const OverlayMarks::Line& line) {
+        constexpr double kNear_01 = 1e-3;
+        return std::abs(line.x0_01 - x_01) < kNear_01 && std::abs(line.y0_01 - y_01) < kNear_01;
+      });
+    };
+    const std::optional<PlacedMesh> body = props_.own_car_in(kind, picture.camera, car_);
+    ASSERT_TRUE(body);
+    const glm::dvec3 behind_m{3.0, 0.0, 0.01}, beside_m{15.0, 4.0, 0.01};
+    EXPECT_GT(lines_from(std::nullopt, behind_m), 0) << kCameraNames[static_cast<std::size_t>(kind)];
+    EXPECT_EQ(lines_from(body, behind_m), 0) << kCameraNames[static_cast<std::size_t>(kind)];
+    EXPECT_GT(lines_from(body, beside_m), 0) << kCameraNames[static_cast<std::size_t>(kind)];
+  }
+  EXPECT_FALSE(props_.own_car_in(CameraKind::kDriver, driver_camera(channel_, car_), car_));
 }
 
 TEST_F(PropsTest, ACameraWithinTheCarDoesNotShowIt) {

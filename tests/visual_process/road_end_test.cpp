@@ -64,7 +64,7 @@ TEST(RoadEnd, IsSaidToTheDriver) {
   Screens screens({.kind = ScreensSetup::Kind::kLive});
   const KeyAction up[] = {KeyAction::kAccelerate};
   Desk desk;
-  screens.press(up, true, desk);
+  screens.press(up, true, desk, {});
   EXPECT_TRUE(screens.panel({}, 60.0, false).empty());
   screens.set_road(RoadPlace::kPastEnd);
   EXPECT_TRUE(screens.panel({}, 60.0, false).empty()) << "there is road to be seen yet";

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "visual/process/notice.h"
 #include "visual/process/window.h"
 #include "visual/process/window_keyboard.h"
 
@@ -28,7 +29,7 @@ bool says(const OverlayPanel& panel, const std::string& words) {
 
 bool press(Screens& screens, Desk& desk, KeyAction action) {
   const KeyAction presses[] = {action};
-  return screens.press(presses, true, desk);
+  return screens.press(presses, true, desk, [&](const DeskCommand& command) { EXPECT_TRUE(apply(desk, command)); });
 }
 
 TEST(Screens, HelpListsEveryKeyOfTheTable) {
@@ -49,6 +50,15 @@ TEST(Screens, HelpListsEveryKeyOfTheTable) {
   EXPECT_FALSE(press(screens, desk, KeyAction::kLeave));
   EXPECT_TRUE(screens.panel({}, 0.0, desk.help).empty());
   EXPECT_TRUE(press(screens, desk, KeyAction::kLeave));
+}
+
+TEST(Notice, StandsForAFewSeconds) {
+  Notice notice;
+  const Notice::Clock::time_point now = Notice::Clock::now();
+  EXPECT_EQ(notice.line(now), "");
+  notice.say("the rig has one design", now);
+  EXPECT_EQ(notice.line(now + 5s), "the rig has one design");
+  EXPECT_EQ(notice.line(now + 7s), "");
 }
 
 TEST(Screens, TheBeginningGoesWhenThePersonDrivesByWhateverTheyDrive) {
@@ -89,7 +99,7 @@ TEST(Screens, TheStartSaysHowToDriveUntilAKeyIsPressed) {
     EXPECT_TRUE(lists(start, action)) << binding_of(action)->name;
   EXPECT_FALSE(lists(Screens({.kind = Kind::kLive}).panel({}, 0.0, false), KeyAction::kDemo)) << "there is none";
   Desk desk;
-  screens.press({}, true, desk);  // any key
+  screens.press({}, true, desk, {});  // any key
   EXPECT_TRUE(screens.panel({}, 100.0, false).empty());
 }
 
@@ -112,7 +122,7 @@ TEST(Screens, TheEndSaysWhatCanBeDoneNext) {
 
   Screens live({.kind = Kind::kLive, .demo = true});
   Desk desk;
-  live.press({}, true, desk);
+  live.press({}, true, desk, {});
   CockpitState controls;
   controls.source = "demo ended";
   EXPECT_TRUE(lists(live.panel(controls, 75.0, false), KeyAction::kAccelerate));

@@ -101,6 +101,21 @@ TEST_F(VisualVerbs, SetsTheDeskAndTellsOfIt) {
   EXPECT_EQ(desk_, before);
 }
 
+TEST_F(VisualVerbs, ADesignIsNotComparedWithItself) {
+  EXPECT_EQ(tell(RigControl::Set{"versus", "0"}).reason, "versus 0: is the design that shines");
+  EXPECT_EQ(desk_, Desk{});
+  EXPECT_EQ(tell(RigControl::Set{"versus", "1"}).now, "versus 1");
+  EXPECT_EQ(tell(RigControl::Set{"compare", "split"}).now, "compare split");
+  EXPECT_EQ(tell(RigControl::Set{"design", "1"}).reason, "versus 1: is the design that shines");
+  EXPECT_EQ(tell(RigControl::Set{"design", "0"}).now, "design 0");
+  // The cockpit may change to the other one while two are compared: that can be left.
+  desk_.design.reset(), shine(1);
+  EXPECT_EQ(tell(RigControl::Set{"compare", ""}).now, "compare split");
+  EXPECT_EQ(tell(RigControl::Set{"camera", "chase"}).now, "camera chase");
+  EXPECT_EQ(tell(RigControl::Set{"compare", "off"}).now, "compare off");
+  EXPECT_EQ(tell(RigControl::Set{"compare", "split"}).reason, "versus 1: is the design that shines");
+}
+
 TEST_F(VisualVerbs, ADesignHeldByTheDeskIsNotWaitedFor) {
   desk_.design = 0;
   EXPECT_EQ(tell(RigControl::Design{1}).verdict, Verdict::kAccepted);

@@ -56,6 +56,13 @@ bool LampKeys::pair(const Lamps& lamps) const {
   return slots && slots->size() == 2;
 }
 
+bool LampKeys::has(KeyAction action) {
+  using enum KeyAction;
+  constexpr std::array kOfLamps{kLampChoose, kLampQuantity, kLampMore, kLampLess,
+                                kLampsUp,    kLampsDown,    kLampUndo, kLampReset};
+  return std::ranges::count(kOfLamps, action) > 0;
+}
+
 std::optional<RigControl> LampKeys::press(KeyAction action, const Lamps& lamps) {
   const auto step = [&](double sign) -> std::optional<RigControl> {
     const std::string name = chosen(lamps);

@@ -21,6 +21,9 @@ std::vector<std::string> movable_lamps(const Lamps& lamps);
 
 class LampKeys {
  public:
+  /// Whether the key is one of lamps that are moved.
+  static bool has(KeyAction action);
+
   /// What the key commands, if anything; others choose.
   std::optional<RigControl> press(KeyAction action, const Lamps& lamps);
 

@@ -17,6 +17,7 @@
 #include "visual/process/drive_log.h"
 #include "visual/process/eyeshine_of_lamps.h"
 #include "visual/process/lamp_keys.h"
+#include "visual/process/notice.h"
 #include "visual/process/panel.h"
 #include "visual/process/picture_instruments.h"
 #include "visual/process/pose_buffer.h"
@@ -127,6 +128,8 @@ class Loop {
   void finish_audit();
   void mind_the_road(const FrameMoment& moment);
   std::vector<std::string> overlay(const FrameMoment& moment) const;
+  void press_for_lamps(KeyAction press);
+  void refuse_key(std::string reason);
   std::vector<std::string> moving_lines() const;
   void mind_who_is_glared_at(DriveRow& row, const FrameMoment& moment);
   void log_frame(const FrameMoment& moment);
@@ -138,6 +141,7 @@ class Loop {
   Verbs verbs_ = visual_verbs(s_.lamps, s_.rig, s_.desk, s_.options.channel, s_.renderer.no_reference().value_or(""),
                               [this] { return seen_from(); });
   LampKeys lamp_keys_;
+  Notice notice_;
   LampNews lamp_news_{s_.lamps};
   World world_{s_.scene, s_.movers.meshes()};  // as it is in this frame
   Pupils pupils_{s_.scene, s_.movers.meshes()};

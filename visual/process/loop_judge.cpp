@@ -23,7 +23,8 @@ void Loop::measure(const FrameMoment& moment) {
                   .car = moment.car.pose,
                   .picture = &input_,
                   .aspect = static_cast<double>(size.width_px) / size.height_px,
-                  .wall = wall ? std::optional(wall_before(s_.lamps, moment.car.pose)) : std::nullopt});
+                  .wall = wall ? std::optional(wall_before(s_.lamps, moment.car.pose)) : std::nullopt,
+                  .own_car = s_.props.own_car_in(s_.desk.camera, input_.camera, moment.car.pose)});
   input_.marks = measuring_.marks(drawn_frames_ % 6 == 0, shown_);
   if (versus_.lamps() != nullptr && shown_.compare != Compare::kOff)
     mark_versus(input_.marks, shown_, s_.lamps, versus_, moment.time);

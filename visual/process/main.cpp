@@ -18,6 +18,7 @@
 #include "visual/gpu/failure.h"
 #include "visual/process/cost_of_moment.h"
 #include "visual/process/run_loop.h"
+#include "visual/process/versus.h"
 #include "visual/scene/refine.h"
 #include "visual/vulkan_devices.h"
 
@@ -166,6 +167,8 @@ int draw_channel(VisualOptions options) {
   for (const DeskCommand& command : options.desk) {
     if (const auto done = apply(desk, command, {.designs = rig->designs.size()}); !done) return refuse(done.error());
   }
+  if (desk.compare != Compare::kOff && desk.design)
+    if (const Status two = check_versus(desk, *desk.design); !two) return refuse(two.error());
   if (!options.levels.empty()) desk.method = options.levels[options.begin_level].method;
   Result<Lamps> lamps = Lamps::load(*rig);
   if (!lamps) return refuse(lamps.error());

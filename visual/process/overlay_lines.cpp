@@ -95,6 +95,7 @@ std::vector<std::string> overlay_lines(const Desk& desk, const Lamps& lamps, con
   if (moment.coming) lines.push_back("the picture that was asked for is being made ...");
   if (moment.audit_over) lines.push_back("SELF-AUDIT: a pixel is off by more than its level states");
   if (moment.road != RoadPlace::kThere) lines.push_back(road_end_line(moment.road));
+  if (moment.paused) lines.emplace_back("PAUSED: phare control resume goes on");
   if (moment.pose_held) lines.emplace_back("POSE HELD: no VehicleState");
   if (moment.controls.fail_safe) lines.emplace_back("FAIL-SAFE low beam: the light switch is silent");
   if (!moment.controls.source_fault.empty()) lines.push_back(moment.controls.source_fault);

@@ -38,6 +38,7 @@ struct OverlayMoment {
   const CockpitState& controls;
   const VehicleState& pose;
   bool pose_held = false;
+  bool paused = false;    ///< by command: simulated time stands
   double frame_ms = 0.0;  ///< of the frame before
   const EyeAdaptation& eye;
   const FrameResult* frame = nullptr;         ///< the one before: its effects and what they took

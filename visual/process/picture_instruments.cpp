@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "visual/process/versus.h"
+#include "visual/scene/ray_hit.h"
 
 namespace phare {
 
@@ -66,13 +67,13 @@ OverlayMarks PictureInstruments::marks(bool anew, const Desk& shown) {
   // Lines of the road do not lie on a wall that stands on it.
   if (desk_.grid_m > 0.0 && !moment_.wall) {
     ++work_;
-    draw_marks(picture, seen(grid_marks(moment_.car, road_, desk_.grid_m)), view);
+    draw_marks(picture, beside_own_car(seen(grid_marks(moment_.car, road_, desk_.grid_m))), view);
   }
   if (desk_.isolux && photo && !moment_.wall) {
     ++work_;
     if (anew || isolux_.lines.empty()) isolux_ = seen(isolux_marks(lamps_, moment_.car, road_, desk_.isolux_lx));
     OverlayMarks lines;
-    draw_marks(lines, isolux_, view, picture.labels);
+    draw_marks(lines, beside_own_car(isolux_), view, picture.labels);
     keep_to_a(lines, shown, lamps_, moment_.time);
     picture.lines.insert(picture.lines.end(), lines.lines.begin(), lines.lines.end());
     picture.labels.insert(picture.labels.end(), lines.labels.begin(), lines.labels.end());
@@ -108,6 +109,21 @@ OverlayMarks PictureInstruments::marks(bool anew, const Desk& shown) {
   put_into(picture, part);
   plot(picture);
   return picture;
+}
+
+/// Without what the body of one's own car hides, seen from outside.
+RoadMarks PictureInstruments::beside_own_car(RoadMarks marks) const {
+  if (!moment_.own_car) return marks;
+  static const Scene kNothing;
+  World body(kNothing, *world_.meshes());
+  body.move({*moment_.own_car});
+  const Camera& camera = moment_.picture->camera;
+  constexpr double kAbove_m = 50.0;  // parallel rays come from beyond the car
+  return seen_marks(std::move(marks), [&](const glm::dvec3& point_m) {
+    const bool parallel = camera.orthographic_width_m > 0.0;
+    const glm::dvec3 from_m = parallel ? point_m - kAbove_m * camera.world_from_eye[0] : camera.eye_m;
+    return occluder(body, from_m, point_m) != nullptr;
+  });
 }
 
 double PictureInstruments::lux_at(const MeasurePoint& at) const {

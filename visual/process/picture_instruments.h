@@ -33,6 +33,7 @@ class PictureInstruments {
     const FrameInput* picture = nullptr;  ///< as it is drawn; it outlives the moment
     double aspect = 16.0 / 9.0;           ///< of the picture
     std::optional<Wall> wall{};           ///< that its own view shows
+    std::optional<PlacedMesh> own_car{};  ///< the same: its body hides what lies behind it
   };
   void see(const Moment& moment) { moment_ = moment; }
   /// What is seen at a place of the picture.
@@ -58,6 +59,7 @@ class PictureInstruments {
   std::uint64_t work_done() const { return work_; }
 
  private:
+  RoadMarks beside_own_car(RoadMarks marks) const;
   double lux_at(const MeasurePoint& at) const;
   std::vector<std::optional<double>> probes_lx() const;
   void plot(OverlayMarks& picture);

@@ -102,6 +102,7 @@ void DisplayClock::observe(SimTime stamped, WallTime sent) {
   constexpr std::int64_t kDriftPerNs = 10'000;  // 100 ppm
   const std::int64_t offset_ns = stamped.ns - sent.ns;
   const bool standing = stamped == stamped_;  // paused: display time stands with it
+  if (!standing) first_stamped_ = sent;
   stamped_ = stamped;
   if (!offset_ns_ || standing || std::abs(offset_ns - *offset_ns_) > kJump_ns) {
     offset_ns_ = offset_ns;

@@ -57,11 +57,15 @@ class DisplayClock {
  public:
   void observe(SimTime stamped, WallTime sent);
   std::optional<SimTime> at(WallTime wall) const;
+  /// In a pause: the same time has come again and again, for longer than any step takes. Not before the drive begins.
+  bool stands() const { return stamped_.ns > 0 && observed_.ns - first_stamped_.ns > kStands_ns; }
 
  private:
   std::optional<std::int64_t> offset_ns_;
   WallTime observed_;
   SimTime stamped_{-1};
+  WallTime first_stamped_;  // when `stamped_` came first
+  static constexpr std::int64_t kStands_ns = 200'000'000;
 };
 
 }  // namespace phare

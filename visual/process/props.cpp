@@ -111,6 +111,10 @@ bool Props::shows_own_car(CameraKind kind, const Camera& camera, const VehicleSt
   return !(glm::all(glm::greaterThan(at_m, kCarLow_m)) && glm::all(glm::lessThan(at_m, kCarHigh_m)));
 }
 
+std::optional<PlacedMesh> Props::own_car_in(CameraKind kind, const Camera& camera, const VehicleState& car) const {
+  return shows_own_car(kind, camera, car) ? std::optional(own_car(car_, car)) : std::nullopt;
+}
+
 std::vector<GlaringLamp> Props::add_to(ViewInput& view, CameraKind kind, const Lamps& lamps, const VehicleState& car,
                                        bool lit, const World& world) const {
   if (kind == CameraKind::kWall) {
@@ -124,13 +128,13 @@ std::vector<GlaringLamp> Props::add_to(ViewInput& view, CameraKind kind, const L
     std::erase_if(view.glare,
                   [&](const GlaringLamp& lamp) { return occluder(alone, lamp.place_m, view.camera.eye_m); });
   }
-  if (!shows_own_car(kind, view.camera, car)) return {};
-  const PlacedMesh body = own_car(car_, car);
+  const std::optional<PlacedMesh> body = own_car_in(kind, view.camera, car);
+  if (!body) return {};
   for (PlacedLamp& lamp : view.lamps)
     if (!Traffic::is_theirs(lamp)) lamp.carried_by = view.moving.size();
-  view.moving.push_back(body);
+  view.moving.push_back(*body);
   if (!lit || view.camera.orthographic_width_m > 0.0) return {};
-  auto tail = rear_lamps_into(RoadUserClass::car, {}, body.position_m, body.world_from_mesh, view.camera.eye_m, world,
+  auto tail = rear_lamps_into(RoadUserClass::car, {}, body->position_m, body->world_from_mesh, view.camera.eye_m, world,
                               view.air);
   view.glare.insert(view.glare.end(), tail.begin(), tail.end());
   return tail;

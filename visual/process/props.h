@@ -42,6 +42,8 @@ class Props {
   /// From outside the car one sees it: every camera but the driver's, the mirrors and the wall's, unless it stands
   /// within the car.
   static bool shows_own_car(CameraKind kind, const Camera& camera, const VehicleState& car);
+  /// The car's body where this camera shows it.
+  std::optional<PlacedMesh> own_car_in(CameraKind kind, const Camera& camera, const VehicleState& car) const;
   /// Puts into a view what its camera shows. The car's body carries its own lamps and casts no shadow in their light;
   /// its tail lamps, which are returned, shine (`lit`) into the eye that sees it, where nothing of `world` is between.
   /// What shines into the eye, which the view has already, shines through no wall. `world` has the meshes of what

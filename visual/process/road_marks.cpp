@@ -168,17 +168,17 @@ RoadMarks isolux_marks(const Lamps& lamps, const VehicleState& car, const RoadLi
   return marks;
 }
 
-RoadMarks seen_marks(RoadMarks marks, const glm::dvec3& eye_m, const RoadLine& road) {
+RoadMarks seen_marks(RoadMarks marks, const std::function<bool(const glm::dvec3& point_m)>& hides) {
   RoadMarks seen;
   for (RoadMarks::Line& line : marks.lines) {
     // A piece of an isolux line is short: one of its ends tells. A long line is cut where it goes out of sight.
     if (line.points_m.size() == 2) {
-      if (!road.hides(eye_m, line.points_m.front())) seen.lines.push_back(std::move(line));
+      if (!hides(line.points_m.front())) seen.lines.push_back(std::move(line));
       continue;
     }
     RoadMarks::Line piece{{}, line.colour};
     for (const glm::dvec3& point_m : line.points_m) {
-      if (!road.hides(eye_m, point_m)) {
+      if (!hides(point_m)) {
         piece.points_m.push_back(point_m);
         continue;
       }
@@ -188,8 +188,8 @@ RoadMarks seen_marks(RoadMarks marks, const glm::dvec3& eye_m, const RoadLine& r
     if (piece.points_m.size() > 1) seen.lines.push_back(std::move(piece));
   }
   for (RoadMarks::Label& label : marks.labels) {
-    std::erase_if(label.others_m, [&](const glm::dvec3& at_m) { return road.hides(eye_m, at_m); });
-    if (road.hides(eye_m, label.at_m)) {
+    std::erase_if(label.others_m, [&](const glm::dvec3& at_m) { return hides(at_m); });
+    if (hides(label.at_m)) {
       if (label.others_m.empty()) continue;
       label.at_m = label.others_m.front();
       label.others_m.erase(label.others_m.begin());
@@ -197,6 +197,10 @@ RoadMarks seen_marks(RoadMarks marks, const glm::dvec3& eye_m, const RoadLine& r
     seen.labels.push_back(std::move(label));
   }
   return seen;
+}
+
+RoadMarks seen_marks(RoadMarks marks, const glm::dvec3& eye_m, const RoadLine& road) {
+  return seen_marks(std::move(marks), [&](const glm::dvec3& point_m) { return road.hides(eye_m, point_m); });
 }
 
 void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometry& view,

@@ -6,6 +6,7 @@
 // the road's height, and what a crest hides is not drawn. Checked by tests/visual_process/measuring_test.cpp.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -57,7 +58,8 @@ RoadMarks grid_marks(const VehicleState& car, const RoadLine& road, double spaci
 RoadMarks isolux_marks(const Lamps& lamps, const VehicleState& car, const RoadLine& road,
                        const std::vector<double>& levels_lx);
 
-/// Without what a crest hides from this eye.
+/// Without what something hides from the eye, and what a crest hides from this one.
+RoadMarks seen_marks(RoadMarks marks, const std::function<bool(const glm::dvec3& point_m)>& hides);
 RoadMarks seen_marks(RoadMarks marks, const glm::dvec3& eye_m, const RoadLine& road);
 /// As the eye sees them, all of them; no label on another of the picture or of `others`.
 void draw_marks(OverlayMarks& picture, const RoadMarks& marks, const ViewGeometry& view,

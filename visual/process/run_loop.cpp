@@ -56,12 +56,27 @@ void Loop::mind_the_keys() {
   const std::vector<KeyAction> presses = keyboard.take_presses();
   for (const KeyAction press : presses) {
     move_eye(press);
-    // A refusal shows in the overlay: nothing has moved.
-    const auto command = lamp_keys_.press(press, s_.lamps);
-    if (command && s_.options.channel == 0) (void)verbs_(*command);
+    press_for_lamps(press);
   }
-  if (screens_.press(presses, keyboard.take_any(), s_.desk)) ended_ = true;
+  const auto set = [&](const DeskCommand& command) {
+    const ControlReply reply = verbs_(RigControl{RigControl::Set{command.setting, command.value}});
+    if (reply.verdict == Verdict::kRefused) refuse_key(reply.reason);
+  };
+  if (screens_.press(presses, keyboard.take_any(), s_.desk, set)) ended_ = true;
   if (const auto keys = keyboard.message(Clock::now())) s_.bus.send(newest_ ? newest_->time : SimTime{}, *keys);
+}
+
+/// Of several windows the first moves lamps.
+void Loop::press_for_lamps(KeyAction press) {
+  if (!LampKeys::has(press)) return;
+  if (s_.options.channel != 0) return refuse_key("the first window of the rig moves lamps");
+  // A refusal shows in the overlay: nothing has moved.
+  if (const auto command = lamp_keys_.press(press, s_.lamps)) (void)verbs_(*command);
+}
+
+void Loop::refuse_key(std::string reason) {
+  notice_.say(std::move(reason), Clock::now());
+  fresh_ = true;
 }
 
 /// Every accepted datagram, in order.
@@ -372,6 +387,7 @@ std::vector<std::string> Loop::overlay(const FrameMoment& moment) const {
                         .controls = moment.controls,
                         .pose = moment.car.pose,
                         .pose_held = moment.car.stale,
+                        .paused = clock_.stands() && !s_.options.lockstep && !over_,
                         .frame_ms = s_.stats.newest.wall_ms,
                         .eye = s_.eye,
                         .frame = &s_.stats.newest,
@@ -387,10 +403,10 @@ std::vector<std::string> Loop::overlay(const FrameMoment& moment) const {
                         .coming = !same_kind(s_.desk, shown_)});
 }
 
-/// What the keys of this window do with lamps; of several windows the first moves them.
+/// What the keys of this window do with lamps, and why one of them did nothing.
 std::vector<std::string> Loop::moving_lines() const {
   std::vector<std::string> lines = lamp_keys_.lines(s_.lamps);
-  if (s_.options.channel != 0 && !lines.empty()) lines = {"the first window of the rig moves lamps"};
+  if (std::string line = notice_.line(Clock::now()); !line.empty()) lines.push_back(std::move(line));
   return lines;
 }
 

@@ -28,10 +28,10 @@ OverlayPanel::Row row(KeyAction action, std::string words) {
 
 Screens::Screens(ScreensSetup setup) : setup_(std::move(setup)), start_(setup_.kind != ScreensSetup::Kind::kNone) {}
 
-bool Screens::press(std::span<const KeyAction> presses, bool any, Desk& desk) {
+bool Screens::press(std::span<const KeyAction> presses, bool any, Desk& desk, const Set& set) {
   if (any) start_ = false;
   for (const KeyAction action : presses) {
-    if (const std::string_view set = binding_of(action)->desk; !set.empty()) (void)apply(desk, desk_command(set));
+    if (const std::string_view words = binding_of(action)->desk; !words.empty()) set(desk_command(words));
     if (action == KeyAction::kBeginAgain) begin_again_ = setup_.kind != ScreensSetup::Kind::kNone;
     if (action == KeyAction::kLeave && !std::exchange(desk.help, false) && !std::exchange(desk.panel, false))
       return true;

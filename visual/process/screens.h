@@ -2,6 +2,7 @@
 // then. Made from the table that binds the keys. Pure text: tests/visual_process/screens_test.cpp.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,9 +28,10 @@ class Screens {
  public:
   explicit Screens(ScreensSetup setup);
 
-  /// The bound keys that were pressed, and whether any was: those of the picture change `desk`. True: the person
-  /// leaves.
-  bool press(std::span<const KeyAction> presses, bool any, Desk& desk);
+  /// The bound keys that were pressed, and whether any was: those of the picture ask `set` for what they are bound to.
+  /// True: the person leaves.
+  using Set = std::function<void(const DeskCommand&)>;
+  bool press(std::span<const KeyAction> presses, bool any, Desk& desk, const Set& set);
   /// Who drives with a gamepad, a wheel or a stalk presses no key here: who accelerates has read how to begin.
   void see(const CockpitState& controls);
   /// The drive has come to its end.

@@ -10,6 +10,7 @@
 #include "config/rig_edit.h"
 #include "net/control_desk.h"
 #include "visual/process/lamp_keys.h"
+#include "visual/process/versus.h"
 
 namespace phare {
 namespace {
@@ -87,6 +88,12 @@ ControlReply save(Lamps& lamps, const Rig& rig, const Desk& desk, std::vector<Na
                   (looks ? print(", %zu cameras", desk.cameras.size()) : ""));
 }
 
+/// Whether the desk goes to other designs side by side.
+bool chooses_designs(const Desk& desk, const Desk& wanted) {
+  const bool compares = wanted.compare != Compare::kOff;
+  return wanted.versus != desk.versus || (compares && (desk.compare == Compare::kOff || wanted.design != desk.design));
+}
+
 /// What changes places and turns of lamps: the first picture's.
 void add_mount_verbs(Verbs& verbs, Lamps& lamps, const Rig& rig, const Desk& desk) {
   verbs.on<RigControl::Mount>([&lamps](const RigControl::Mount& mount) {
@@ -148,11 +155,16 @@ Verbs visual_verbs(Lamps& lamps, const Rig& rig, Desk& desk, std::uint32_t chann
   });
   verbs.on<RigControl::Set>(
       [&lamps, &desk, no_reference, seen_from = std::move(seen_from)](const RigControl::Set& set) {
-        auto done = apply(desk, {set.setting, set.value},
+        Desk wanted = desk;
+        auto done = apply(wanted, {set.setting, set.value},
                           {.designs = lamps.designs().size(),
                            .seen_from = seen_from ? seen_from() : std::nullopt,
                            .no_reference = no_reference});
-        return done ? accepted(std::move(*done)) : refused(done.error().text());
+        if (!done) return refused(done.error().text());
+        if (chooses_designs(desk, wanted))
+          if (const Status two = check_versus(wanted, lamps.design_index()); !two) return refused(two.error().text());
+        desk = std::move(wanted);
+        return accepted(std::move(*done));
       });
   verbs.on<RigControl::Tell>([&lamps, &desk](const auto&) { return accepted(text_of(lamps, desk)); });
   return verbs;

@@ -23,6 +23,11 @@ std::optional<std::size_t> versus_design(const Desk& desk, const Lamps& shown) {
   return desk.versus ? std::min(*desk.versus, designs - 1) : (shown.design_index() + 1) % designs;
 }
 
+Status check_versus(const Desk& desk, std::size_t shining) {
+  if (desk.versus != desk.design.value_or(shining)) return Done{};
+  return Error{"versus " + std::to_string(*desk.versus), "is the design that shines"};
+}
+
 std::vector<Lamps::Change> Versus::follow(const Desk& desk, const Lamps& shown, CockpitState controls) {
   const auto design = desk.compare == Compare::kOff ? std::nullopt : versus_design(desk, shown);
   if (!design) {

@@ -65,6 +65,9 @@ class Versus {
 /// Which design stands beside the one that shines; none: the rig has no other.
 std::optional<std::size_t> versus_design(const Desk& desk, const Lamps& shown);
 
+/// Error: what the desk compares with the design that shines is that design itself.
+Status check_versus(const Desk& desk, std::size_t shining);
+
 /// Takes marks that are of A's light off what shows B.
 void keep_to_a(OverlayMarks& marks, const Desk& desk, const Lamps& shown, SimTime now);
 
