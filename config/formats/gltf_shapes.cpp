@@ -100,6 +100,16 @@ Status node(const Json& object, const std::string& place) {
   if (shapes.status() && matrix != nullptr)
     if ((*matrix)[3] != 0 || (*matrix)[7] != 0 || (*matrix)[11] != 0 || (*matrix)[15] != 1)
       shapes.fail("matrix has no last row 0, 0, 0, 1; columns follow each other");
+  for (const char* part : {"translation", "rotation", "scale"})
+    if (matrix != nullptr && shapes.find(part) != nullptr)
+      shapes.fail(std::string("has matrix and ") + part + " both, of which one would be left out");
+  if (const Json* rotation = shapes.find("rotation"); rotation != nullptr && shapes.status()) {
+    double length2 = 0.0;
+    for (const Json& part : *rotation) length2 += part.get<double>() * part.get<double>();
+    constexpr double kRounded = 0.01;  // as exporters leave it; 0, 0, 0, 0 is refused where it would turn
+    if (length2 != 0.0 && !(std::abs(std::sqrt(length2) - 1.0) <= kRounded))
+      shapes.fail("rotation is no unit quaternion");
+  }
   return shapes.status();
 }
 

@@ -330,6 +330,19 @@ TEST(ReadScene, RefusesWhatIsWrongWithAReason) {
             std::string::npos);
   EXPECT_NE(reason(node, R"({"pbrMetallicRoughness":{"baseColorFactor":[0.9,0.1,0.1]}})").find("has 3 numbers, not 4"),
             std::string::npos);
+  EXPECT_NE(reason(R"({"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1],"scale":[2,2,2]})", "{}").find("both"),
+            std::string::npos);
+  for (const char* no_turn : {"[0,0,0,2]", "[1e200,0,0,1]"})
+    EXPECT_NE(reason(std::string(R"({"mesh":0,"rotation":)") + no_turn + "}", "{}").find("no unit quaternion"),
+              std::string::npos)
+        << no_turn;
+  for (const char* no_light : {"[-1,0,0]", "[0,5,0]"})
+    EXPECT_NE(reason(node, std::string(R"({"emissiveFactor":)") + no_light + "}").find("emissiveFactor is outside"),
+              std::string::npos)
+        << no_light;
+  EXPECT_NE(reason(node, R"({"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":1e12}}})")
+                .find("emissiveStrength is outside"),
+            std::string::npos);
   EXPECT_NE(reason(node, R"({"alphaMode":"blend"})").find("alphaMode is \"blend\""), std::string::npos);
   EXPECT_NE(
       reason(node, R"({"extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":-4}}})").find("below 0"),

@@ -66,7 +66,7 @@ void draw_lump(Pen& pen, Material m, Random& random, dvec3 centre, dvec3 radii) 
   std::vector<dvec3> unit;
   for (dvec3& c : corners) {
     unit.push_back(glm::normalize(c));
-    c = centre + radii * unit.back() * random.uniform(0.75, 1.25);
+    c = centre + radii * unit.back() * random.uniform(0.4, 1.5);
   }
   // Faces are the triples of corners at the icosahedron's edge length, 2 before normalizing.
   const double edge = 2.0 / std::sqrt(1.0 + g * g);
@@ -107,10 +107,10 @@ void draw_broadleaf(Pen pen, Random& random, double height, Material leaves) {
   }
   const dvec3 heart = lean + dvec3(0.0, 0.0, 0.58 * height);
   for (const Lobe& lobe : lobes) {
-    draw_lump(pen, within(leaves), random, lobe.centre, 0.58 * lobe.radii);
+    draw_lump(pen, within(leaves), random, lobe.centre, 0.52 * lobe.radii);
     for (int i = 0; i < 18; ++i) {
       const dvec3 way = direction(random);
-      const dvec3 at = lobe.centre + lobe.radii * way * random.uniform(0.68, 1.1);
+      const dvec3 at = lobe.centre + lobe.radii * way * random.uniform(0.5, 1.1);
       draw_clump(pen, leaves, random, at, glm::normalize(0.6 * way + 0.6 * glm::normalize(at - heart)),
                  random.uniform(0.045, 0.078) * height, kLeavesOfTreeClump);
     }

@@ -33,6 +33,12 @@ double number_or(const tinygltf::Value& object, const char* key, double otherwis
   return std::isfinite(value) ? value : otherwise;
 }
 
+/// cd/m² of an emissive factor of 1.
+double emissive_strength(const tinygltf::Material& source) {
+  const tinygltf::Value* strength = extension_of(source.extensions, "KHR_materials_emissive_strength");
+  return strength != nullptr ? number_or(*strength, "emissiveStrength", 1.0) : 1.0;
+}
+
 glm::dvec2 pair_or(const tinygltf::Value& object, const char* key, glm::dvec2 otherwise) {
   if (!object.Has(key) || !object.Get(key).IsArray() || object.Get(key).ArrayLen() != 2) return otherwise;
   glm::dvec2 pair = otherwise;
@@ -122,6 +128,10 @@ Result<ReadMaterial> MaterialReader::read(const tinygltf::Material& source) {
     if (!(color[i] >= 0.0 && color[i] <= 1.0)) return bad("baseColorFactor is outside 0 … 1");
     material.look.base[static_cast<int>(i)] = static_cast<float>(color[i]);
   }
+  for (const double part : source.emissiveFactor)
+    if (!(part >= 0.0 && part <= 1.0)) return bad("emissiveFactor is outside 0 … 1");
+  if (const double times = emissive_strength(source); !(times >= 0.0 && times <= kMostLuminance_cdm2))
+    return bad("emissiveStrength is outside 0 … 1e8 cd/m²");
   material.reflectance = glm::vec3(material.look.base);
 
   read_look(source, read);
@@ -271,11 +281,8 @@ void MaterialReader::read_look(const tinygltf::Material& source, ReadMaterial& r
   look.base_texture = texture_of(base, name, look.sampler);
 
   // What it sends out itself.
-  const tinygltf::Value* strength = extension_of(source.extensions, "KHR_materials_emissive_strength");
-  const double times = strength != nullptr ? number_or(*strength, "emissiveStrength", 1.0) : 1.0;
   for (std::size_t i = 0; i < std::min<std::size_t>(source.emissiveFactor.size(), 3); ++i)
-    look.emitted_cdm2[static_cast<int>(i)] =
-        static_cast<float>(std::clamp(source.emissiveFactor[i] * times, 0.0, kMostLuminance_cdm2));
+    look.emitted_cdm2[static_cast<int>(i)] = static_cast<float>(source.emissiveFactor[i] * emissive_strength(source));
   if (look.emitted_cdm2 != glm::vec3(0.0f)) {
     TextureSampler sampler = look.sampler;
     look.emissive_texture = texture_of(source.emissiveTexture, name, sampler);
