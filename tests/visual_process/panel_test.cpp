@@ -134,6 +134,19 @@ TEST_F(PanelTest, LooksOnAsLongAsNobodyTouchesIt) {
   EXPECT_LE(panel_.right_px(), 1280.0 / 3.0) << "the left third, not more";
 }
 
+// A window that is made larger or smaller has letters and panel in the same part of the picture.
+TEST_F(PanelTest, FollowsTheSizeOfTheWindow) {
+  const auto width_in = [&](int height_px) {
+    for (int i = 0; i < 3; ++i) (void)panel_.lay_out(facts(), height_px * 16 / 9, height_px, 0.02);
+    return panel_.right_px() / (height_px * 16 / 9);
+  };
+  const double part = width_in(720);
+  EXPECT_NEAR(part, 0.33, 0.03);
+  EXPECT_NEAR(width_in(1440), part, 0.01);
+  EXPECT_LT(width_in(540), part + 0.01) << "letters of 11 px are read";
+  EXPECT_NEAR(width_in(720), part, 0.001) << "and back";
+}
+
 TEST_F(PanelTest, EveryIndexAndVertexOfWhatIsDrawnIsThere) {
   const GuiContent& content = panel_.content();
   ASSERT_FALSE(content.draws.empty());

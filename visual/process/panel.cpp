@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "visual/letters.h"
 
@@ -17,6 +18,10 @@ constexpr float kPanelWidth = 27.0f;         // in letters' heights: a third of 
 
 ImVec4 grey(float level, float alpha = 1.0f) {
   return {level, level * 1.03f, level * 1.08f, alpha};
+}
+
+float text_px_of(int picture_height_px) {
+  return std::max(kPanelText_px * static_cast<float>(picture_height_px) / kPanelReferenceHeight_px, kLeastPanelText_px);
 }
 
 /// Dark: a bright panel would be the brightest thing at night.
@@ -76,20 +81,19 @@ void copy_out(const ImDrawData& data, GuiContent& content) {
 
 }  // namespace
 
-Panel::Panel(int picture_height_px) : context_(ImGui::CreateContext()) {
+Panel::Panel(int picture_height_px)
+    : context_(ImGui::CreateContext()), letters_px_(text_px_of(picture_height_px)), text_px_(letters_px_) {
   ImGui::SetCurrentContext(context_);
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // nothing is kept between runs
   io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
-  const float text_px =
-      std::max(kPanelText_px * static_cast<float>(picture_height_px) / kPanelReferenceHeight_px, kLeastPanelText_px);
   if (const std::string file = letters_file("DejaVuSans.ttf"); !file.empty())
-    io.Fonts->AddFontFromFileTTF(file.c_str(), text_px);
+    io.Fonts->AddFontFromFileTTF(file.c_str(), letters_px_);
   else
     io.Fonts->AddFontDefault();
   atlas_ = make_atlas(*io.Fonts);
   content_.atlas = atlas_;
-  set_style(text_px);
+  set_style(text_px_);
 }
 
 Panel::~Panel() {
@@ -126,6 +130,10 @@ std::vector<PanelCommand> Panel::lay_out(const PanelFacts& facts, int width_px, 
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(width_px), static_cast<float>(height_px)};
   io.DeltaTime = static_cast<float>(std::clamp(dt_s, 1e-4, 1.0));
+  if (const float text_px = text_px_of(height_px); std::exchange(text_px_, text_px) != text_px) {
+    io.FontGlobalScale = text_px / letters_px_;
+    set_style(text_px);
+  }
   feed();
   ImGui::NewFrame();
   const float edge = 0.5f * ImGui::GetFontSize();

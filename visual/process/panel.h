@@ -50,7 +50,7 @@ std::vector<PanelCommand> panel_sections(const PanelFacts& facts, PanelState& st
 
 class Panel {
  public:
-  /// Letters are made for a picture of this height.
+  /// Letters are made for a picture of this height, and drawn larger or smaller in one of another.
   explicit Panel(int picture_height_px);
   ~Panel();
   Panel(const Panel&) = delete;
@@ -78,6 +78,7 @@ class Panel {
   void feed();
 
   ImGuiContext* context_ = nullptr;
+  float letters_px_, text_px_;  ///< as they were made, and as they are drawn
   std::shared_ptr<const GuiAtlas> atlas_;
   GuiContent content_;
   std::deque<PointerEvent> waiting_;
