@@ -55,6 +55,26 @@ TEST_F(GuiOnDevice, TrianglesLieWhereTheyAreAndAreCutOffAtTheirEdges) {
   EXPECT_EQ(pixel(image, 100, 45), none) << "beyond the edge of its draw";
 }
 
+// Rows that would be too small to be read under each other stand in columns; few rows in one.
+TEST_F(GuiOnDevice, ManyRowsOfAPanelStandInColumns) {
+  const auto reaches_px = [&](std::size_t rows) {
+    FrameInput input = black();
+    input.panel.place = OverlayPanel::Place::kLeft;
+    input.panel.rows.assign(rows, {"K", "steer"});
+    renderer->draw(input);
+    const Image8 image = renderer->read_image();
+    int right_px = 0;
+    for (int x = 0; x < image.width_px; ++x)
+      if (pixel(image, x, 20) != std::array<int, 3>{0, 0, 0}) right_px = x;
+    return right_px;
+  };
+  constexpr int kEdge_px = 11;  // the least letters: three of it beside one column, one between two
+  const int one = reaches_px(5), column = one - 3 * kEdge_px;
+  EXPECT_GT(column, 30);
+  EXPECT_NEAR(reaches_px(20), 2 * column + 4 * kEdge_px, 2);
+  EXPECT_NEAR(reaches_px(30), 3 * column + 5 * kEdge_px, 3);
+}
+
 TEST_F(GuiOnDevice, AlphaBlendsAsDisplayed) {
   FrameInput input = black();
   GuiContent content = rectangle(0.0f, 0.0f, 320.0f, 180.0f, 320.0f, {200, 200, 200, 255});

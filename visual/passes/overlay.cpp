@@ -141,31 +141,48 @@ void draw_panel(Pen small, const Pen& large, float left_px, const ImVec2& pictur
   if (panel.empty()) return;
   const float edge = small.size_px;
   const float title_height = panel.title.empty() ? 0.0f : large.size_px * 1.5f;
-  // All of it is to be seen: more rows than fit are written smaller.
-  const float rows = static_cast<float>(panel.rows.size());
-  const float room = picture.y - 3.0f * edge - title_height;
-  const float line = std::min(small.size_px * kLine, room / std::max(rows, 1.0f));
-  small.size_px = std::min(small.size_px, line / kLine * 1.1f);
-
-  float key_width = 0.0f, width = large.width(panel.title);
-  for (const OverlayPanel::Row& row : panel.rows)
-    if (!row.key.empty()) key_width = std::max(key_width, small.width(row.key) + 1.5f * small.size_px);
-  for (const OverlayPanel::Row& row : panel.rows)
-    width = std::max(width, small.width(row.words) + (row.key.empty() ? 0.0f : key_width));
-  const ImVec2 size{width + 2.0f * edge, title_height + line * rows + 1.5f * edge};
+  // All of it is to be seen: more rows than fit are written smaller, and where those would not be read in the columns
+  // that leave the largest letters.
+  const float letters_px = small.size_px, room = picture.y - 3.0f * edge - title_height;
+  const float across = picture.x - left_px - 4.0f * edge;
+  float key_width = 0.0f, column_width = 0.0f;
+  std::size_t columns = 0, rows = 0;
+  const auto width = [&] { return static_cast<float>(columns) * (column_width + edge) - edge; };
+  const auto measure = [&](float size_px) {
+    small.size_px = size_px;
+    key_width = column_width = 0.0f;
+    for (const OverlayPanel::Row& row : panel.rows)
+      if (!row.key.empty()) key_width = std::max(key_width, small.width(row.key) + 1.5f * size_px);
+    for (const OverlayPanel::Row& row : panel.rows)
+      column_width = std::max(column_width, small.width(row.words) + (row.key.empty() ? 0.0f : key_width));
+  };
+  const auto lay_out = [&](std::size_t in_columns) {
+    columns = in_columns, rows = std::max<std::size_t>((panel.rows.size() + columns - 1) / columns, 1);
+    measure(std::min(letters_px, room / static_cast<float>(rows) / kLine * 1.1f));
+    if (columns > 1 && width() > across) measure(small.size_px * across / width());
+  };
+  std::size_t best = 1;
+  float best_px = 0.0f;
+  for (std::size_t each = 1; each <= 3 && best_px < kLeastText_px; ++each) {
+    lay_out(each);
+    if (small.size_px > best_px) best = each, best_px = small.size_px;
+  }
+  lay_out(best);
+  const float line = std::min(small.size_px * kLine, room / static_cast<float>(rows));
+  const ImVec2 size{std::max(large.width(panel.title), width()) + 2.0f * edge,
+                    title_height + line * static_cast<float>(rows) + 1.5f * edge};
   const bool left = panel.place == OverlayPanel::Place::kLeft;
   const ImVec2 at{left_px + (left ? edge : std::max(0.5f * (picture.x - left_px - size.x), 0.0f)),
                   left ? edge : top_px};
   if (panel.place == OverlayPanel::Place::kAlone) small.list.AddRectFilled({0.0f, 0.0f}, picture, kBlank);
   small.list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, kPaper, 8.0f);
-  const float x = at.x + edge;
-  float y = at.y + 0.7f * edge;
-  large.write(x, y, kInk, panel.title);
-  y += title_height;
-  for (const OverlayPanel::Row& row : panel.rows) {
+  large.write(at.x + edge, at.y + 0.7f * edge, kInk, panel.title);
+  for (std::size_t i = 0; i < panel.rows.size(); ++i) {
+    const OverlayPanel::Row& row = panel.rows[i];
+    const float x = at.x + edge + static_cast<float>(i / rows) * (column_width + edge);
+    const float y = at.y + 0.7f * edge + title_height + static_cast<float>(i % rows) * line;
     if (!row.key.empty()) small.write(x, y, kKeyInk, row.key);
     small.write(row.key.empty() ? x : x + key_width, y, kInk, row.words);
-    y += line;
   }
 }
 
