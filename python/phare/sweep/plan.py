@@ -10,6 +10,7 @@ import itertools
 import json
 import math
 import os
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -25,6 +26,18 @@ WORDS = (
     "aim", "level", "friction", "roughness", "frames", "size", "law", "sensor_delay_s", "sensor_noise_deg", "sensor_miss_01",
     "sensor_seed", "sensor_red_range_m",
 )
+#: What `phare drive` takes of them, said before the first drive: a plan runs for hours.
+EXPECTED: dict[str, tuple[Callable[[Any], bool], str]] = {
+    "aim": (lambda v: v in ("cut-off", "as-filed") or _is_number(v), "cut-off, as-filed or degrees up"),
+    "level": (lambda v: v in _LEVELS, "one of pose, kinematic, single-track, full, auto"),
+    "roughness": (lambda v: str(v) in tuple("ABCDE"), "a class of ISO 8608, A to E"),
+    "frames": (lambda v: _is_whole(v) and 1 <= v <= 1_000_000, "a whole number from 1 to 1000000"),
+    "size": (lambda v: re.fullmatch(r"[1-9]\d*x[1-9]\d*", str(v)) is not None, "WIDTHxHEIGHT, such as 1280x720"),
+    "sensor_seed": (lambda v: _is_whole(v) and v >= 0, "a whole number from 0 on"),
+    **{key: (lambda v: _is_number(v) and v >= 0, "a number from 0 on") for key in ("sensor_delay_s", "sensor_noise_deg", "sensor_red_range_m")},
+    "sensor_miss_01": (lambda v: _is_number(v) and 0 <= v <= 1, "a number from 0 to 1"),
+}
+_LEVELS = ("pose", "kinematic", "single-track", "full", "auto")
 #: Numbers that a job's row has of its drive (phare.sweep.job); some of them where the job has a law, or traffic too.
 FIGURES = ("frames", "driven_s", "driven_m", "suspension_pitch_most_deg", "picture_mean", "high_share", "glare_s", "glare_of_s")
 _TOP = ("name", "kind", "seed", "samples", "rank_by", "rank", "fixed", "vary", "run", "measure")
@@ -192,6 +205,9 @@ def _settings(table: dict[str, Any], at: Place, folder: Path) -> dict[str, Any]:
             raise BadInput(f"{at(key)}: unknown key {key}; there are {', '.join(FILES + WORDS)}, set.SETTING")
         if isinstance(value, (list, dict)) or (isinstance(value, float) and not math.isfinite(value)):
             raise BadInput(f"{at(key)}: {key} = {value!r}: expected one value")
+        allows, words = EXPECTED.get(key, (lambda _: True, ""))
+        if not allows(value):
+            raise BadInput(f"{at(key)}: {key} = {value!r}: expected {words}")
         if key in FILES or key == "law" and is_fmu(value):
             name, comma, rest = str(value).partition(",")
             there = (folder / name).resolve()
