@@ -1,6 +1,8 @@
 // The manual page, roff with the man macros, made from the declarations of the command line.
 #include <cstdio>
+#include <initializer_list>
 #include <sstream>
+#include <utility>
 
 #include "tools/help_data.h"
 
@@ -93,10 +95,26 @@ std::string manual_page(const std::vector<CommandHelp>& commands, const std::str
   for (const OptionHelp& option : program.options) print_option(out, option);
   out << ".SH COMMANDS\n";
   for (std::size_t i = 1; i < commands.size(); ++i) print_command(out, commands[i]);
-  out << ".SH \"EXIT STATUS\"\n.TP\n0\nDone.\n.TP\n1\nWhat was checked fails.\n.TP\n2\nBad input: one line says what "
-         "and "
-         "where.\n"
-      << ".SH EXAMPLES\n.nf\n";
+  const auto section = [&out](const char* heading, std::initializer_list<std::pair<const char*, const char*>> rows) {
+    out << ".SH " << heading << "\n";
+    for (const auto& [term, words] : rows) out << ".TP\n" << for_roff(term) << "\n" << for_roff(words) << "\n";
+  };
+  section("\"EXIT STATUS\"", {{"0", "Done."},
+                              {"1", "What was checked fails."},
+                              {"2", "Bad input: one line says what and where."},
+                              {"130", "Interrupted: by Ctrl-C, SIGTERM or a closed terminal."}});
+  section("ENVIRONMENT",
+          {{"PHARE_GENERATED_DIR", "Where the shipped lamps and scenes lie: what rig files call generated/."},
+           {"PHARE_RUN_DIR", "Folder of the keys of running rigs, of its user alone. Default: /run/user/UID/phare."},
+           {"PHARE_PYTHON", "The python3 that has python-can and asammdf, for logs other than candump's."},
+           {"XDG_CACHE_HOME", "Under its phare what settings cost on this machine is kept. Default: ~/.cache."},
+           {"TMPDIR", "Folder of files that a drive makes for itself. Default: /tmp."},
+           {"DISPLAY, WAYLAND_DISPLAY", "Where windows go."},
+           {"VK_ICD_FILENAMES, VK_DRIVER_FILES", "Vulkan devices, by its loader."}});
+  section("FILES",
+          {{"/usr/share/phare/config", "Rigs, vehicles, cockpits, drives, rules and examples that are shipped."},
+           {"/usr/share/phare/generated", "Lamps and scenes that are shipped."}});
+  out << ".SH EXAMPLES\n.nf\n";
   for (const std::string& example : program.examples()) out << for_roff(example) << "\n";
   out << ".fi\n.SH \"SEE ALSO\"\nThe pages in docs/ of the source, or /usr/share/doc/phare.\n";
   return out.str();

@@ -100,6 +100,9 @@ TEST(ManualPage, HasEveryOptionOfEveryCommandAndGroffHasNoWarning) {
       }
     }
   }
+  for (const char* told :
+       {".SH ENVIRONMENT", "PHARE_RUN_DIR", "PHARE_GENERATED_DIR", "PHARE_PYTHON", ".SH FILES", "130"})
+    EXPECT_NE(page.find(told), std::string::npos) << told;
   EXPECT_EQ(page.find(source_dir()), std::string::npos) << "names a folder of this machine";
   if (output_of("command -v groff").code != 0) GTEST_SKIP() << "no groff: the page is not set";
   const Output said = output_of(quoted(program("phare")) + " manual | groff -man -ww -z -Tutf8 2>&1");
