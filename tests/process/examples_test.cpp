@@ -167,8 +167,9 @@ void expect_to_run(const Clone& clone, const std::string& line) {
   const bool unheard =
       subcommand_of(line) == "replay" && said.text.find("nobody listens at ") != std::string::npos;  // no picture runs
   const bool told = (subcommand_of(line) == "doctor" || unheard) && said.code == 1;
-  // A drive that nothing ends is ended by Ctrl-C, and says so.
-  const bool interrupted = subcommand_of(line) == "drive" && said.code == kExitInterrupted;
+  // A drive and a replay that nothing ends are ended by Ctrl-C, and say so.
+  const bool lasts = subcommand_of(line) == "drive" || subcommand_of(line) == "replay";
+  const bool interrupted = lasts && said.code == kExitInterrupted;
   EXPECT_TRUE(said.code == 0 || told || interrupted) << said.code << " of " << line << "\n" << said.text;
   std::printf("%3d  %5.1f s  %s\n", said.code, took.count(), line.c_str());
   std::fflush(stdout);

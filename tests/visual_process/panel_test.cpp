@@ -145,6 +145,8 @@ TEST_F(PanelTest, FollowsTheSizeOfTheWindow) {
   EXPECT_NEAR(width_in(1440), part, 0.01);
   EXPECT_LT(width_in(540), part + 0.01) << "letters of 11 px are read";
   EXPECT_NEAR(width_in(720), part, 0.001) << "and back";
+  for (int i = 0; i < 3; ++i) (void)panel_.lay_out(facts(), 1280, 4000, 0.02);
+  EXPECT_NEAR(panel_.right_px() / 1280, part, 0.01) << "of a window that stands upright";
 }
 
 TEST_F(PanelTest, EveryIndexAndVertexOfWhatIsDrawnIsThere) {

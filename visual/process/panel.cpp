@@ -11,8 +11,8 @@
 namespace phare {
 namespace {
 
-// Of a picture 720 pixels high; chosen by eye at 1280 x 720.
-constexpr float kPanelText_px = 15.0f, kPanelReferenceHeight_px = 720.0f;
+// Chosen by eye at 1280 x 720.
+constexpr float kPanelText_px = 15.0f, kReferenceWidth_px = 1280.0f, kReferenceHeight_px = 720.0f;
 constexpr float kLeastPanelText_px = 11.0f;  // smaller letters are not read
 constexpr float kPanelWidth = 27.0f;         // in letters' heights: a third of 1280 pixels
 
@@ -20,8 +20,9 @@ ImVec4 grey(float level, float alpha = 1.0f) {
   return {level, level * 1.03f, level * 1.08f, alpha};
 }
 
-float text_px_of(int picture_height_px) {
-  return std::max(kPanelText_px * static_cast<float>(picture_height_px) / kPanelReferenceHeight_px, kLeastPanelText_px);
+float text_px_of(float width_px, float height_px) {
+  return std::max(kPanelText_px * std::min(width_px / kReferenceWidth_px, height_px / kReferenceHeight_px),
+                  kLeastPanelText_px);
 }
 
 /// Dark: a bright panel would be the brightest thing at night.
@@ -82,7 +83,10 @@ void copy_out(const ImDrawData& data, GuiContent& content) {
 }  // namespace
 
 Panel::Panel(int picture_height_px)
-    : context_(ImGui::CreateContext()), letters_px_(text_px_of(picture_height_px)), text_px_(letters_px_) {
+    : context_(ImGui::CreateContext()),
+      letters_px_(text_px_of(kReferenceWidth_px / kReferenceHeight_px * static_cast<float>(picture_height_px),
+                             static_cast<float>(picture_height_px))),
+      text_px_(letters_px_) {
   ImGui::SetCurrentContext(context_);
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // nothing is kept between runs
@@ -130,7 +134,8 @@ std::vector<PanelCommand> Panel::lay_out(const PanelFacts& facts, int width_px, 
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(width_px), static_cast<float>(height_px)};
   io.DeltaTime = static_cast<float>(std::clamp(dt_s, 1e-4, 1.0));
-  if (const float text_px = text_px_of(height_px); std::exchange(text_px_, text_px) != text_px) {
+  if (const float text_px = text_px_of(io.DisplaySize.x, io.DisplaySize.y);
+      std::exchange(text_px_, text_px) != text_px) {
     io.FontGlobalScale = text_px / letters_px_;
     set_style(text_px);
   }

@@ -50,7 +50,7 @@ std::vector<PanelCommand> panel_sections(const PanelFacts& facts, PanelState& st
 
 class Panel {
  public:
-  /// Letters are made for a picture of this height, and drawn larger or smaller in one of another.
+  /// Letters are made for a picture of this height, 16:9, and drawn larger or smaller in one of another size.
   explicit Panel(int picture_height_px);
   ~Panel();
   Panel(const Panel&) = delete;
