@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -242,17 +241,8 @@ Result<CandumpLog> parse_candump(std::string_view text, const std::string& name)
 }
 
 Result<CandumpLog> read_candump(const std::filesystem::path& file) {
-  if (is_standard_input(file)) {
-    constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 32;
-    const auto came_in = read_input_bytes(file, kMostBytes);
-    if (!came_in) return came_in.error();
-    return parse_candump(*came_in, input_name(file));
-  }
-  if (const std::string why = why_no_file(file); !why.empty()) return Error{file.string(), why};
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return Error{file.string(), "cannot be read"};
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return parse_candump(text, file.string());
+  const auto text = read_file_or_input(file);
+  return text ? parse_candump(*text, input_name(file)) : text.error();
 }
 
 Result<std::string> choose_interface(CandumpLog& log, const std::string& named, bool must_be_there) {

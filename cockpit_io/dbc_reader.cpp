@@ -1,7 +1,6 @@
 // The reader of DBC files: see dbc.h for what it reads and what it passes over.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <utility>
 
@@ -413,17 +412,8 @@ Result<Dbc> parse_dbc(std::string_view text, const std::string& name) {
 }
 
 Result<Dbc> read_dbc(const std::filesystem::path& file) {
-  if (is_standard_input(file)) {
-    constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 32;
-    const auto came_in = read_input_bytes(file, kMostBytes);
-    if (!came_in) return came_in.error();
-    return parse_dbc(*came_in, input_name(file));
-  }
-  if (const std::string why = why_no_file(file); !why.empty()) return Error{file.string(), why};
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return Error{file.string(), "cannot be read"};
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return parse_dbc(text, file.string());
+  const auto text = read_file_or_input(file);
+  return text ? parse_dbc(*text, input_name(file)) : text.error();
 }
 
 }  // namespace phare

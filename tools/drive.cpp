@@ -348,7 +348,8 @@ std::string DriveRun::validation_messages() const {
 std::string DriveRun::what_was_not_written() const {
   std::string names;
   for (const Supervisor::Ended& end : supervisor_->ends()) {
-    if (kept() && facts_.interrupted && end.process.starts_with("visual") && end.how != "exit 0")
+    const bool hurried = end.how == "SIGKILL" || end.how == "left behind";
+    if (kept() && facts_.interrupted && end.process.starts_with("visual") && hurried)
       names += (names.empty() ? "" : ", ") + end.process;
   }
   return names.empty() ? "" : "no time was left for " + names + " to write all stills and rows";

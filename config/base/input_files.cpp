@@ -5,6 +5,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <optional>
 
 namespace phare {
@@ -57,6 +59,15 @@ Result<std::string> read_input_bytes(const std::filesystem::path& name, std::uin
   if (bytes.size() > limit) return Error{place, "is larger than " + std::to_string(limit >> 20) + " MiB"};
   if (standard) came_in = bytes;
   return bytes;
+}
+
+Result<std::string> read_file_or_input(const std::filesystem::path& name) {
+  constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 32;
+  if (is_standard_input(name)) return read_input_bytes(name, kMostBytes);
+  if (const std::string why = why_no_file(name); !why.empty()) return Error{name.string(), why};
+  std::ifstream stream(name, std::ios::binary);
+  if (!stream) return Error{name.string(), "cannot be read"};
+  return std::string{std::istreambuf_iterator<char>(stream), {}};
 }
 
 Status check_inputs(const std::vector<std::string>& inputs, const std::vector<std::string>& results) {

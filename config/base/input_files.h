@@ -25,6 +25,9 @@ std::string why_no_file(const std::filesystem::path& name);
 /// where there is nothing to read or more than `limit` bytes; its place is input_name().
 Result<std::string> read_input_bytes(const std::filesystem::path& name, std::uintmax_t limit);
 
+/// All of a regular file, or of standard input up to 4 GiB.
+Result<std::string> read_file_or_input(const std::filesystem::path& name);
+
 /// Before anything is read or written. Error when two inputs are standard input, or a result would be written over an
 /// input, under whatever name: "./x", a symbolic or a hard link. Empty names are options that were not given.
 Status check_inputs(const std::vector<std::string>& inputs, const std::vector<std::string>& results = {});

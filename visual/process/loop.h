@@ -211,7 +211,7 @@ class Loop {
     std::set<LampFunction> functions{};
     std::size_t others = 0;  ///< lamps of others
     bool glare = false;
-    bool apart = false;  ///< one's own are not all aimed alike
+    bool apart = false;  ///< one's own are two that are not aimed alike; known once they are placed
 
     friend auto operator<=>(const LitWith&, const LitWith&) = default;
   };

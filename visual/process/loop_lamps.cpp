@@ -18,16 +18,15 @@ namespace phare {
 
 namespace {
 
-/// Pictures of two lamps aimed alike have shaders of their own (LitBy::alike).
+/// Pictures of two lamps aimed alike have shaders of their own (LitBy::alike); those of more have not.
 bool aimed_apart(const std::vector<PlacedLamp>& lamps, std::size_t own) {
-  return std::any_of(lamps.begin(), lamps.begin() + static_cast<std::ptrdiff_t>(own),
-                     [&](const PlacedLamp& lamp) { return lamp.world_from_image != lamps.front().world_from_image; });
+  return own == 2 && lamps[0].world_from_image != lamps[1].world_from_image;
 }
 
 }  // namespace
 
 Loop::LitWith Loop::lit_with(const CockpitState& light, std::size_t others, bool glare) const {
-  return {light.design_index, lit_functions(light, s_.rig.high_keeps_low), others, glare, lit_with_.apart};
+  return {light.design_index, lit_functions(light, s_.rig.high_keeps_low), others, glare};
 }
 
 /// It was drawn, or rehearsed, without shadows and with them.

@@ -27,7 +27,7 @@ WORDS = (
     "sensor_seed", "sensor_red_range_m",
 )
 #: What `phare drive` takes of them, said before the first drive: a plan runs for hours.
-EXPECTED: dict[str, tuple[Callable[[Any], bool], str]] = {
+_EXPECTED: dict[str, tuple[Callable[[Any], bool], str]] = {
     "aim": (lambda v: v in ("cut-off", "as-filed") or _is_number(v), "cut-off, as-filed or degrees up"),
     "level": (lambda v: v in _LEVELS, "one of pose, kinematic, single-track, full, auto"),
     "roughness": (lambda v: str(v) in tuple("ABCDE"), "a class of ISO 8608, A to E"),
@@ -205,7 +205,7 @@ def _settings(table: dict[str, Any], at: Place, folder: Path) -> dict[str, Any]:
             raise BadInput(f"{at(key)}: unknown key {key}; there are {', '.join(FILES + WORDS)}, set.SETTING")
         if isinstance(value, (list, dict)) or (isinstance(value, float) and not math.isfinite(value)):
             raise BadInput(f"{at(key)}: {key} = {value!r}: expected one value")
-        allows, words = EXPECTED.get(key, (lambda _: True, ""))
+        allows, words = _EXPECTED.get(key, (lambda _: True, ""))
         if not allows(value):
             raise BadInput(f"{at(key)}: {key} = {value!r}: expected {words}")
         if key in FILES or key == "law" and is_fmu(value):
